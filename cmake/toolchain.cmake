@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# Compiler cache and linker: the fastest ones this machine has.
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+
+include(CheckLinkerFlag)
+check_linker_flag(CXX -fuse-ld=mold LODESTIR_HAS_MOLD)
+check_linker_flag(CXX -fuse-ld=lld LODESTIR_HAS_LLD)
+if(LODESTIR_HAS_MOLD)
+    add_link_options(-fuse-ld=mold)
+elseif(LODESTIR_HAS_LLD)
+    add_link_options(-fuse-ld=lld)
+endif()

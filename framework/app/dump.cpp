@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/dump.h>
+
+#include <framework/graph/header.h>
+#include <framework/graph/npy.h>
+#include <framework/graph/struct_layout.h>
+#include <framework/image/exr.h>
+
+namespace lodestir {
+
+void dumpPort(Session& session, const Source& source, const Path& path) {
+    const Graph& graph = session.graph();
+    const Port& port = graph.port(source);
+    if (port.type.kind == PortType::Kind::image) {
+        writeExr(path.string() + ".exr", session.runner().readImage(source), {.attributes = {{"lodestir", graph.resolved().dump(-1)}}});
+        return;
+    }
+    const Plugin& plugin = *graph.nodes[std::size_t(source.node)].plugin;
+    const std::vector<std::byte> bytes = session.runner().readBytes(source);
+    const std::size_t count = bytes.size() / port.type.size;
+    writeNpy(path.string() + ".npy", bytes, structFields(port.type.name, Path(port.type.header), includeFolders(plugin), port.type.size), {count});
+}
+
+}  // namespace lodestir

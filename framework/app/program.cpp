@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/program.h>
+
+#include <framework/app/check_command.h>
+#include <framework/app/compare_command.h>
+#include <framework/app/devices_command.h>
+#include <framework/app/passes_command.h>
+#include <framework/app/run_command.h>
+#include <framework/app/scene_command.h>
+#include <framework/core/error.h>
+
+#include <CLI/CLI.hpp>
+#include <lodestir/revision.h>
+
+#include <cstdio>
+#include <functional>
+
+namespace lodestir {
+
+int runProgram(int argc, char** argv) {
+    CLI::App app("Lodestir: render graphs of exchangeable passes for real-time path tracing across levels of detail.", "lodestir");
+    app.set_version_flag("--version", std::string(LODESTIR_VERSION) + " (" + LODESTIR_REVISION + ")");
+    app.require_subcommand(1);
+    app.failure_message(CLI::FailureMessage::help);
+    std::function<int()> run;
+    addRun(app, run);
+    addCompare(app, run);
+    addPasses(app, run);
+    addCheck(app, run);
+    addScene(app, run);
+    addDevices(app, run);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        return run();
+    } catch (const Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "lodestir: %s\n", error.what());
+    }
+    return 1;
+}
+
+}  // namespace lodestir

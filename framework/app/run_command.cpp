@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/run_command.h>
+
+#include <framework/app/dump.h>
+#include <framework/app/run_report.h>
+#include <framework/core/log.h>
+#include <framework/image/exr.h>
+#include <framework/image/image_file.h>
+#include <framework/image/metrics.h>
+#include <framework/image/png.h>
+#include <framework/image/preview.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace lodestir {
+namespace {
+
+struct RunOptions {
+    SessionOptions session;
+    Path out = "out";
+    Path reference;
+    bool checkNan = false, lastOnly = false, json = false;
+};
+
+/// Colour channels only, so that an image with an alpha of 1 compares with one without.
+ImageData colorOf(const ImageData& image) { return image.channels == 4 ? firstChannels(image, 3) : image; }
+
+void requireFinite(const ImageData& image, const std::string& name) {
+    std::size_t bad = 0, first = 0;
+    for (std::size_t i = image.values.size(); i-- > 0;)
+        if (!std::isfinite(image.values[i])) {
+            ++bad;
+            first = i / std::size_t(image.channels);
+        }
+    if (bad > 0)
+        throw Error("port " + name + " holds " + std::to_string(bad) + " values that are not finite; the first at pixel (" +
+                    std::to_string(first % std::size_t(image.width)) + ", " + std::to_string(first / std::size_t(image.width)) + ")");
+}
+
+int runGraph(const RunOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    Session session(options.session);
+    Graph& graph = session.graph();
+    Runner& runner = session.runner();
+    std::unique_ptr<ImageData> reference;
+    if (!options.reference.empty()) reference = std::make_unique<ImageData>(colorOf(readImage(options.reference)));
+    const std::string shown = graph.nameOf(graph.show), resolved = graph.resolved().dump(-1);
+    const std::string shownName = graph.description.showPort.empty() ? graph.description.showNode : shown;
+    const bool shownIsImage = graph.port(graph.show).type.kind == PortType::Kind::image;
+
+    nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    const int count = graph.description.count;
+    double setup = 0;
+    log::Progress progress("rendering", std::size_t(count));
+    for (int i = 0; i < count; ++i, progress.advance()) {
+        const FrameReport report = runner.run();
+        if (i == 0) setup = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() - report.milliseconds;
+        std::map<std::string, double> metrics;
+        const std::string suffix = "." + std::to_string(report.frame);
+        const bool write = !options.lastOnly || i + 1 == count;
+        if (shownIsImage && (write || reference || options.checkNan)) {
+            const ImageData image = runner.readImage(graph.show);
+            if (options.checkNan) requireFinite(image, shown);
+            if (reference)
+                for (const std::string& name : metricNames()) metrics[name] = evaluate(name, colorOf(image), *reference);
+            if (write) {
+                writeExr(options.out / (shownName + suffix + ".exr"), image, {.attributes = {{"lodestir", resolved}}});
+                writePng(options.out / (shownName + suffix + ".png"), preview(image));
+            }
+        } else if (!shownIsImage && write) {
+            dumpPort(session, graph.show, options.out / (shownName + suffix));
+        }
+        for (const Source& source : session.dumps()) {
+            if (options.checkNan && graph.port(source).type.kind == PortType::Kind::image) requireFinite(runner.readImage(source), graph.nameOf(source));
+            if (write) dumpPort(session, source, options.out / (graph.nameOf(source) + suffix));
+        }
+        frames.push_back(frameJson(report, metrics, options.session.countSteps));
+    }
+    nlohmann::ordered_json json = runJson(session, setup);
+    json["frames"] = std::move(frames);
+    writeFile(options.out / "run.json", json.dump(2) + "\n");
+    if (options.json) std::printf("%s\n", json.dump(2).c_str());
+    if (!session.device().validationMessages().empty())
+        throw Error(std::to_string(session.device().validationMessages().size()) + " validation messages; the first: " + session.device().validationMessages()[0]);
+    log::note("{} frames of {}x{} on {} ({}): {}", count, runner.size().x, runner.size().y, session.device().facts().name, nameOf(session.rays()), options.out.string());
+    return 0;
+}
+
+}  // namespace
+
+void addRun(CLI::App& app, std::function<int()>& run) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "Renders a graph's frames and writes images, dumps and run.json.");
+    options->session.addTo(*command);
+    command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json");
+    command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
+    command->add_flag("--check-nan", options->checkNan, "fail when a shown or dumped image holds a value that is not finite");
+    command->add_flag("--last", options->lastOnly, "write images of the last frame only");
+    command->add_flag("--json", options->json, "print run.json as well");
+    command->callback([options, &run] { run = [options] { return runGraph(*options); }; });
+}
+
+}  // namespace lodestir

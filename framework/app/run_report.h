@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// run.json: what was run, on what, and what each frame cost.
+#pragma once
+#include <framework/app/session.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <map>
+#include <string>
+
+namespace lodestir {
+
+/// Names of the ray purposes, in the ledger's order.
+inline constexpr std::array<std::string_view, RAYS_PURPOSES> rayPurposes{"primary", "nee", "continue", "replay", "connect", "visibility", "steps"};
+
+/// One member of "frames".
+nlohmann::ordered_json frameJson(const FrameReport& frame, const std::map<std::string, double>& metrics, bool countSteps);
+/// The whole file but for "frames". `totalMilliseconds`: from the start of the program to the first frame's end, less the frame itself.
+nlohmann::ordered_json runJson(Session& session, double totalMilliseconds);
+
+}  // namespace lodestir

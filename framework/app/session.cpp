@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/session.h>
+
+#include <framework/core/log.h>
+#include <framework/graph/scene_node.h>
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <chrono>
+
+namespace lodestir {
+namespace {
+
+/// "960x540"
+glm::uvec2 readSize(const std::string& text) {
+    glm::uvec2 size{0};
+    const char* end = text.data() + text.size();
+    const auto [x, ok] = std::from_chars(text.data(), end, size.x);
+    if (ok == std::errc() && x != end && *x == 'x') {
+        const auto [rest, good] = std::from_chars(x + 1, end, size.y);
+        if (good == std::errc() && rest == end && size.x > 0 && size.y > 0) return size;
+    }
+    throw CLI::ValidationError("--size", "\"" + text + "\" is no size; write it like 960x540");
+}
+
+}  // namespace
+
+void SessionOptions::addTo(CLI::App& command) {
+    command.add_option("graph", graph, "graph file")->required();
+    command.add_option_function<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's");
+    command.add_option_function<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames")->check(CLI::PositiveNumber);
+    command.add_option_function<std::string>("--size", [this](const std::string& v) { changes.size = readSize(v); }, "of the frame, WIDTHxHEIGHT");
+    command.add_option_function<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers");
+    command.add_option("--set", changes.set, "pass.parameter=value")->take_all()->allow_extra_args(false);
+    command.add_option_function<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
+    command.add_option_function<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
+    command.add_option("--dump", dumps, "pass.port to write as well")->take_all()->allow_extra_args(false);
+    command.add_option("--passes", passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
+    command.add_option("--device", device, "name or index, see `lodestir devices`");
+    command.add_option("--rays", rays, "how rays are traced: packet or lane");
+    command.add_flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
+    command.add_flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
+    command.add_flag("--count-steps", countSteps, "count the nodes that rays visit");
+}
+
+Session::Session(const SessionOptions& options) : libraries_(options.passes) {
+    libraries_.addBuiltIn("scene", scenePlugin());
+    graph_ = std::make_unique<Graph>(buildGraph(loadDescription(options.graph, options.changes), libraries_));
+    for (const std::string& name : options.dumps) dumps_.push_back(findSource(*graph_, name, {"--dump", 0, 0}));
+    if (graph_->description.scene.empty()) throw Error({graph_->description.file.string(), 0, 0}, "the graph names no scene", "add \"scene\" or give --scene");
+    const auto start = std::chrono::steady_clock::now();
+    scene_ = loadScene(graph_->description.scene);
+    for (const std::string& note : scene_.notes) log::note("{}", note);
+    sceneMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    device_ = std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options.device});
+    rays_ = chooseRayBody(device_->facts(), options.rays);
+    runner_ = std::make_unique<Runner>(*device_, *graph_, scene_,
+                                       RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps});
+}
+
+}  // namespace lodestir

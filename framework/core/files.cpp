@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Reads files whole and writes them aside first, so that no reader ever sees half a file.
+#include <framework/core/error.h>
+#include <framework/core/files.h>
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace lodestir {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An open file, closed at the end of its scope.
+class File {
+public:
+    File(const Path& path, int flags) : path_(path), handle_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    ~File() {
+        if (handle_ >= 0) ::close(handle_);
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    bool isOpen() const { return handle_ >= 0; }
+
+    [[noreturn]] void fail(const char* what, int reason) const {
+        throw Error(Where{path_.string()}, std::string(what) + ": " + std::generic_category().message(reason));
+    }
+
+    std::size_t size() const {
+        struct stat status {};
+        if (::fstat(handle_, &status) != 0) fail("cannot be read", errno);
+        if (S_ISDIR(status.st_mode)) fail("cannot be read", EISDIR);
+        return static_cast<std::size_t>(status.st_size);
+    }
+
+    /// Bytes read, 0 at the end.
+    std::size_t read(std::span<char> bytes) {
+        ssize_t count = 0;
+        do count = ::read(handle_, bytes.data(), bytes.size());
+        while (count < 0 && errno == EINTR);
+        if (count < 0) fail("cannot be read", errno);
+        return static_cast<std::size_t>(count);
+    }
+
+    void write(std::span<const std::byte> bytes) {
+        while (!bytes.empty()) {
+            const ssize_t count = ::write(handle_, bytes.data(), bytes.size());
+            if (count < 0 && errno != EINTR) fail("cannot be written", errno);
+            if (count > 0) bytes = bytes.subspan(static_cast<std::size_t>(count));
+        }
+    }
+
+    /// Full disks may only be noticed here.
+    void close() {
+        if (::close(std::exchange(handle_, -1)) != 0) fail("cannot be written", errno);
+    }
+
+private:
+    Path path_;
+    int handle_;
+};
+
+/// A checkout without `git lfs pull` holds small text files in place of models and images; each reader would complain in its own way.
+void refuseGitLfsPointer(const Path& path, std::string_view content) {
+    if (content.starts_with("version https://git-lfs.github.com/spec/")) {
+        throw Error(Where{path.string()}, "is a git-lfs pointer, not the file itself", "fetch with git lfs pull");
+    }
+}
+
+template <class Bytes> Bytes readWhole(const Path& path) {
+    File file(path, O_RDONLY);
+    if (!file.isOpen()) file.fail("cannot be read", errno);
+    Bytes bytes;
+    // One byte more than the size, to meet the end at once; pipes and /proc say 0 and are read in growing steps.
+    bytes.resize(file.size() + 1);
+    std::size_t used = 0;
+    while (const std::size_t count = file.read({reinterpret_cast<char*>(bytes.data()) + used, bytes.size() - used})) {
+        used += count;
+        if (used == bytes.size()) bytes.resize(2 * bytes.size() + 4096);
+    }
+    bytes.resize(used);
+    refuseGitLfsPointer(path, {reinterpret_cast<const char*>(bytes.data()), used});
+    return bytes;
+}
+
+void makeFolder(const Path& folder) {
+    if (folder.empty()) return;
+    std::error_code reason;
+    fs::create_directories(folder, reason);
+    if (reason) throw Error(Where{folder.string()}, "the folder cannot be made: " + reason.message());
+}
+
+/// Takes a name beside the target that no other process or thread has. The name starts with a dot, so that listings and globs pass over it.
+Path reserveAside(const Path& target) {
+    for (int attempt = 0;; ++attempt) {
+        Path aside = target.parent_path() / ("." + target.stem().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) +
+                                             target.extension().string());
+        File file(aside, O_WRONLY | O_CREAT | O_EXCL);
+        if (file.isOpen()) return aside;
+        if (errno != EEXIST) throw Error(Where{target.string()}, "cannot be written: " + std::generic_category().message(errno));
+    }
+}
+
+}  // namespace
+
+std::string readText(const Path& path) { return readWhole<std::string>(path); }
+
+std::vector<std::byte> readBytes(const Path& path) { return readWhole<std::vector<std::byte>>(path); }
+
+void writeAside(const Path& path, const std::function<void(const Path& aside)>& write) {
+    std::error_code none;
+    const Path target = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;  // what the link means is replaced, not the link
+    const fs::file_status status = fs::status(target, none);
+    if (fs::is_directory(status)) throw Error(Where{path.string()}, "cannot be written: it is a folder");
+    if (fs::exists(status) && !fs::is_regular_file(status)) {  // devices and pipes such as /dev/null must not be renamed over
+        write(target);
+        return;
+    }
+    makeFolder(target.parent_path());
+    const Path aside = reserveAside(target);
+    try {
+        write(aside);
+        std::error_code reason;
+        fs::rename(aside, target, reason);
+        if (reason) throw Error(Where{path.string()}, "cannot be written: " + reason.message());
+    } catch (...) {
+        fs::remove(aside, none);
+        throw;
+    }
+}
+
+void writeFile(const Path& path, std::span<const std::byte> bytes) {
+    writeAside(path, [&](const Path& aside) {
+        File file(aside, O_WRONLY | O_CREAT | O_TRUNC);
+        if (!file.isOpen()) file.fail("cannot be written", errno);
+        file.write(bytes);
+        file.close();
+    });
+}
+
+void writeFile(const Path& path, std::string_view text) { writeFile(path, std::as_bytes(std::span(text))); }
+
+}  // namespace lodestir

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: MIT
+// Description -> Graph: constructs the passes, binds their inputs, sets their parameters, and finds everything that is wrong.
+#include <framework/gpu/shader.h>
+#include <framework/graph/graph.h>
+#include <framework/graph/header.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace lodestir {
+namespace {
+
+constexpr const char* sceneName = "scene";  // the node, and its type, that stand for the scene file
+constexpr std::string_view worldType = "World";
+
+bool isWorld(const Port& port) { return port.type.kind == PortType::Kind::handle && port.type.name == worldType; }
+bool isMade(const Port& port) { return port.role == Port::Role::out || port.role == Port::Role::state; }
+
+template <class P> int findPort(const Pass& pass, std::string_view name, const P& fits) {
+    for (std::size_t i = 0; i < pass.ports.size(); ++i) {
+        if (pass.ports[i]->name == name && fits(*pass.ports[i])) return int(i);
+    }
+    return -1;
+}
+
+template <class P> std::vector<std::string> portNames(const Pass& pass, const P& fits) {
+    std::vector<std::string> names;
+    for (const Port* port : pass.ports) {
+        if (fits(*port)) names.emplace_back(port->name);
+    }
+    return names;
+}
+
+std::vector<std::string> nodeNames(const std::vector<GraphNode>& nodes) {
+    std::vector<std::string> names;
+    for (const GraphNode& node : nodes) names.push_back(node.name);
+    return names;
+}
+
+std::string quoted(const std::string& a) { return "\"" + a + "\""; }
+
+/// The only output of a node, for references that name the pass alone. Error at `where` when there is none or more than one.
+int onlyOutput(const GraphNode& node, const Where& where) {
+    const std::vector<std::string> outputs = portNames(*node.pass, isMade);
+    if (outputs.size() == 1) return findPort(*node.pass, outputs[0], isMade);
+    if (outputs.empty()) throw Error(where, fmt::format("pass \"{}\" has no output", node.name));
+    throw Error(where, fmt::format("pass \"{}\" has {} outputs", node.name, outputs.size()),
+                fmt::format("name one: {}.{}", node.name, fmt::join(outputs, fmt::format(", {}.", node.name))));
+}
+
+/// Where the value of `source` really comes from when passes on the way are off. Empty: from an input that is unwired.
+std::optional<Source> throughBypasses(const std::vector<GraphNode>& nodes, Source source, const Where& where) {
+    for (std::size_t steps = 0; nodes[std::size_t(source.node)].off; ++steps) {
+        const GraphNode& node = nodes[std::size_t(source.node)];
+        const std::string name(node.pass->ports[std::size_t(source.port)]->name);
+        if (steps > nodes.size()) throw Error(where, fmt::format("pass \"{}\" is off and its \"{}\" comes back to itself", node.name, name));
+        const auto bypass = std::ranges::find(node.pass->bypasses, node.pass->ports[std::size_t(source.port)], &Pass::Bypass::out);
+        if (bypass == node.pass->bypasses.end()) {
+            throw Error(where, fmt::format("pass \"{}\" is off, and no input stands for its \"{}\"", node.name, name), "wire another source");
+        }
+        const auto in = std::ranges::find(node.pass->ports, bypass->in) - node.pass->ports.begin();
+        const std::optional<Source>& next = node.inputs[std::size_t(in)];
+        if (!next) return std::nullopt;
+        if (next->prev && source.prev) {
+            throw Error(where, fmt::format("pass \"{}\" is off, and last frame's \"{}\" would be the value of two frames ago", node.name, name));
+        }
+        source = {next->node, next->port, next->prev || source.prev};
+    }
+    return source;
+}
+
+class GraphBuilder {
+public:
+    GraphBuilder(Description description, PluginLibraries& libraries) : libraries_(libraries) { graph_.description = std::move(description); }
+
+    Graph build() {
+        makeNodes();
+        if (needsScene()) addScene();
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            if (!nodes()[i].pass) continue;
+            setParameters(i);
+            bindEdges(i);
+        }
+        bindWorlds();
+        for (std::size_t i = 0; i < nodes().size(); ++i) checkInputs(i);
+        bypassOffNodes();
+        bindShow();
+        problems_.raise();  // the rest takes every binding for granted
+        findCycles();
+        checkSizes();
+        problems_.raise();
+        return std::move(graph_);
+    }
+
+private:
+    std::vector<GraphNode>& nodes() { return graph_.nodes; }
+
+    template <class F> void attempt(const F& part) {
+        try {
+            part();
+        } catch (const Error& error) {
+            problems_.add(error);
+        }
+    }
+
+    void makeNode(const std::string& name, const std::string& type, const Where& where, const Where& typeWhere, GraphNode& node) {
+        node.name = name;
+        node.type = type;
+        node.where = where;
+        attempt([&] {
+            node.plugin = &libraries_.find(type, typeWhere);
+            node.pass.reset(node.plugin->create());
+            node.pass->shader = node.plugin->shader;
+            node.inputs.resize(node.pass->ports.size());
+            checkDeclaration(*node.pass, type, typeWhere, problems_);
+        });
+    }
+
+    void makeNodes() {
+        for (const NodeDescription& described : graph_.description.nodes) {
+            GraphNode node;
+            makeNode(described.name, described.type, described.where, described.typeWhere, node);
+            node.off = described.off;
+            if (node.off && node.pass && node.pass->bypasses.empty()) {
+                problems_.add(described.offWhere, fmt::format("pass \"{}\" can't be off: {} hands nothing through", node.name, node.type));
+                node.off = false;
+            }
+            nodes().push_back(std::move(node));
+            descriptions_.push_back(&described);
+            places_.emplace_back();
+        }
+    }
+
+    /// The scene is asked for by name, or a World input that nobody wires finds no pass that could give it one.
+    bool needsScene() {
+        if (graph_.find(sceneName) >= 0) return false;
+        const auto namesScene = [](const EdgeDescription& edge) { return edge.fromNode == sceneName; };
+        for (const NodeDescription* described : descriptions_) {
+            if (std::ranges::any_of(described->edges, namesScene)) return true;
+        }
+        bool produced = false;
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            if (!nodes()[i].pass) continue;
+            for (const Port* port : nodes()[i].pass->ports) {
+                const bool wired = std::ranges::find(descriptions_[i]->edges, port->name, &EdgeDescription::port) != descriptions_[i]->edges.end();
+                // The first pass that gives a World has none before itself to take one from.
+                if (isWorld(*port) && port->isInput() && !port->optional && !wired && (!produced || !hasLaterOrOtherWorld(i))) return true;
+            }
+            produced = produced || makesWorld(i);
+        }
+        return false;
+    }
+
+    bool makesWorld(std::size_t i) {
+        const auto isWorldOutput = [](const Port* port) { return isWorld(*port) && isMade(*port); };
+        return nodes()[i].pass && std::ranges::any_of(nodes()[i].pass->ports, isWorldOutput);
+    }
+    bool hasLaterOrOtherWorld(std::size_t i) {
+        for (std::size_t k = 0; k < nodes().size(); ++k) {
+            if (k != i && makesWorld(k)) return true;
+        }
+        return false;
+    }
+
+    void addScene() {
+        if (!libraries_.hasBuiltIn(sceneName)) {
+            problems_.add(Where{graph_.description.file.string()}, "the graph needs a scene, and this program has no pass \"scene\"");
+            return;
+        }
+        GraphNode node;
+        makeNode(sceneName, sceneName, {}, {}, node);
+        node.implied = true;
+        nodes().insert(nodes().begin(), std::move(node));
+        descriptions_.insert(descriptions_.begin(), nullptr);
+        places_.insert(places_.begin(), std::map<int, Where>());
+    }
+
+    void setParameters(std::size_t i) {
+        if (!descriptions_[i]) return;
+        for (const Setting& setting : descriptions_[i]->settings) {
+            attempt([&] { setParameter(graph_, nodes()[i].name + "." + setting.name, setting.value); });
+        }
+    }
+
+    void bindEdges(std::size_t i) {
+        if (!descriptions_[i]) return;
+        for (const EdgeDescription& edge : descriptions_[i]->edges) attempt([&] { bindEdge(i, edge); });
+    }
+
+    void bindEdge(std::size_t i, const EdgeDescription& edge) {
+        GraphNode& node = nodes()[i];
+        const auto isInput = [](const Port& port) { return port.isInput(); };
+        const int port = findPort(*node.pass, edge.port, isInput);
+        if (port < 0) {
+            const std::vector<std::string> inputs = portNames(*node.pass, isInput);
+            problems_.add(edge.portWhere, fmt::format("pass \"{}\": no input \"{}\" on {}", node.name, edge.port, node.type),
+                          inputs.empty() ? "it has none" : didYouMean(edge.port, inputs));
+        } else {
+            wired_.push_back({int(i), port});  // even if its source turns out wrong: one mistake, one message
+        }
+        const int from = graph_.find(edge.fromNode);
+        if (from < 0) throw Error(edge.where, "no pass \"" + edge.fromNode + "\"", didYouMean(edge.fromNode, nodeNames(nodes())));
+        const GraphNode& fromNode = nodes()[std::size_t(from)];
+        if (!fromNode.pass) return;  // its type is wrong, which was said
+        const int fromPort = edge.fromPort.empty() ? onlyOutput(fromNode, edge.where) : findPort(*fromNode.pass, edge.fromPort, isMade);
+        if (fromPort < 0) {
+            const std::vector<std::string> outputs = portNames(*fromNode.pass, isMade);
+            throw Error(edge.where, fmt::format("pass \"{}\" has no output \"{}\"", fromNode.name, edge.fromPort),
+                        outputs.empty() ? "it has none" : didYouMean(edge.fromPort, outputs));
+        }
+        if (port < 0) return;
+        const Source source{from, fromPort, edge.prev};
+        checkTypes({int(i), port}, source, edge.where);
+        node.inputs[std::size_t(port)] = source;
+        places_[i][port] = edge.where;
+    }
+
+    void checkTypes(const Source& to, const Source& from, const Where& where) {
+        const PortType &wanted = graph_.port(to).type, &given = graph_.port(from).type;
+        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {} is ", nodes()[std::size_t(to.node)].name, graph_.port(to).name,
+                                              wanted.text(), graph_.nameOf(from));
+        if (wanted.kind != given.kind || wanted.name != given.name) throw Error(where, start + given.text());
+        if (wanted.size != given.size) {
+            throw Error(where, start + fmt::format("a {} of another size: {} bytes, not {}", given.text(), given.size, wanted.size),
+                        "build both passes against the same header");
+        }
+        if (wanted.header.empty() && given.header.empty()) return;
+        const Path wantedFile = headerFile(to, where), givenFile = headerFile(from, where);
+        if (wantedFile == givenFile || hashOf(to, wantedFile) == hashOf(from, givenFile)) return;
+        throw Error(where, start + fmt::format("a {} declared otherwise: {} differs from {}", given.text(), givenFile.string(), wantedFile.string()),
+                    "let both passes include the same header");
+    }
+
+    Path headerFile(const Source& source, const Where& where) {
+        const Port& port = graph_.port(source);
+        for (const Path& folder : includeFolders(*nodes()[std::size_t(source.node)].plugin)) {
+            std::error_code none;
+            if (std::filesystem::is_regular_file(folder / port.type.header, none)) return std::filesystem::weakly_canonical(folder / port.type.header, none);
+        }
+        throw Error(where, fmt::format("header \"{}\" of {} ({}) is not found", port.type.header, graph_.nameOf(source), port.type.text()));
+    }
+
+    const Hash& hashOf(const Source& source, const Path& file) {
+        const auto found = hashes_.find(file);
+        if (found != hashes_.end()) return found->second;
+        return hashes_.emplace(file, gpu::includeClosure(file, includeFolders(*nodes()[std::size_t(source.node)].plugin))).first->second;
+    }
+
+    /// Does `node` need, in the same frame, what `other` makes?
+    bool dependsOn(int node, int other) const {
+        std::vector<bool> seen(graph_.nodes.size());
+        std::vector<int> open{node};
+        while (!open.empty()) {
+            const int at = open.back();
+            open.pop_back();
+            if (at == other) return true;
+            if (seen[std::size_t(at)]) continue;
+            seen[std::size_t(at)] = true;
+            for (const auto& input : graph_.nodes[std::size_t(at)].inputs) {
+                if (input && !input->prev) open.push_back(input->node);
+            }
+        }
+        return false;
+    }
+
+    /// Unwired World inputs take the last World of the file that doesn't depend on them, a pass that makes a World the one before itself.
+    /// "...Prev" inputs take last frame's.
+    void bindWorlds() {
+        for (const bool producers : {true, false}) {
+            for (std::size_t i = 0; i < nodes().size(); ++i) {
+                if (!nodes()[i].pass || makesWorld(i) != producers) continue;
+                for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
+                    const Port& port = *nodes()[i].pass->ports[p];
+                    const bool free = std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
+                    if (port.isInput() && isWorld(port) && !port.optional && free) nodes()[i].inputs[p] = worldFor(i, port.name.ends_with("Prev"));
+                }
+            }
+        }
+    }
+
+    std::optional<Source> worldFor(std::size_t consumer, bool prev) {
+        const std::size_t end = makesWorld(consumer) && !prev ? consumer : nodes().size();
+        for (std::size_t i = end; i-- > 0;) {
+            if (!makesWorld(i) || (!prev && dependsOn(int(i), int(consumer)))) continue;
+            const auto& ports = nodes()[i].pass->ports;
+            for (std::size_t p = 0; p < ports.size(); ++p) {
+                if (isWorld(*ports[p]) && isMade(*ports[p])) return Source{int(i), int(p), prev};
+            }
+        }
+        return std::nullopt;
+    }
+
+    void checkInputs(std::size_t i) {
+        const GraphNode& node = nodes()[i];
+        if (!node.pass || node.off) return;
+        for (std::size_t p = 0; p < node.inputs.size(); ++p) {
+            const Port& port = *node.pass->ports[p];
+            if (!port.isInput() || port.optional || node.inputs[p]) continue;
+            if (std::ranges::find(wired_, Source{int(i), int(p)}) != wired_.end()) continue;  // wired, but wrongly
+            const std::string candidates = sourcesFor(i, port);
+            problems_.add(node.where, fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, port.name, port.type.text(), port.doc),
+                          candidates.empty() ? "no pass of the graph makes one" : "made by: " + candidates);
+        }
+    }
+
+    /// The outputs that would fit, as a hint.
+    std::string sourcesFor(std::size_t consumer, const Port& wanted) {
+        constexpr std::size_t listed = 5;
+        std::vector<std::string> names;
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            if (i == consumer || !nodes()[i].pass) continue;
+            for (const Port* port : nodes()[i].pass->ports) {
+                if (isMade(*port) && port->type.kind == wanted.type.kind && port->type.name == wanted.type.name)
+                    names.push_back(fmt::format("{}.{}", nodes()[i].name, port->name));
+            }
+        }
+        if (names.size() > listed) names.resize(listed);
+        return fmt::format("{}", fmt::join(names, ", "));
+    }
+
+    void bypassOffNodes() {
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            GraphNode& node = nodes()[i];
+            if (!node.pass || node.off) continue;
+            for (std::size_t p = 0; p < node.inputs.size(); ++p) {
+                if (!node.inputs[p]) continue;
+                const Where where = places_[i].contains(int(p)) ? places_[i][int(p)] : node.where;
+                attempt([&] {
+                    const Source before = *node.inputs[p];
+                    node.inputs[p] = throughBypasses(nodes(), before, where);
+                    if (node.inputs[p] || node.pass->ports[p]->optional) return;
+                    throw Error(where, fmt::format("pass \"{}\" is off, and the input that stands for its \"{}\" is not wired",
+                                                   nodes()[std::size_t(before.node)].name, graph_.port(before).name));
+                });
+            }
+        }
+    }
+
+    void bindShow() {
+        const Description& d = graph_.description;
+        const int node = graph_.find(d.showNode);
+        if (node >= 0 && !nodes()[std::size_t(node)].pass) return;
+        attempt([&] { graph_.show = findSource(graph_, d.showPort.empty() ? d.showNode : d.showNode + "." + d.showPort, d.showWhere); });
+    }
+
+    /// Depth first along what each node needs; an edge back to a node on the way closes a cycle.
+    void findCycles() {
+        std::vector<int> state(nodes().size());  // 0: new, 1: on the way, 2: done
+        std::vector<int> way;
+        for (std::size_t i = 0; i < nodes().size(); ++i) visit(int(i), state, way);
+    }
+
+    void visit(int index, std::vector<int>& state, std::vector<int>& way) {
+        if (state[std::size_t(index)] != 0) return;
+        state[std::size_t(index)] = 1;
+        way.push_back(index);
+        for (const int needed : neededBy(index)) {
+            if (state[std::size_t(needed)] == 1) {
+                reportCycle({std::ranges::find(way, needed), way.end()});
+            } else {
+                visit(needed, state, way);
+            }
+        }
+        way.pop_back();
+        state[std::size_t(index)] = 2;
+    }
+
+    /// Nodes that must run before: makers of inputs, and readers of last frame's state, which is changed in place.
+    std::vector<int> neededBy(int index) {
+        std::vector<int> needed;
+        const GraphNode& node = nodes()[std::size_t(index)];
+        if (node.off) return needed;
+        for (const auto& input : node.inputs) {
+            if (input && !input->prev) needed.push_back(input->node);
+        }
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            if (nodes()[i].off || int(i) == index) continue;
+            for (const auto& input : nodes()[i].inputs) {
+                if (input && input->prev && input->node == index && graph_.port(*input).role == Port::Role::state) needed.push_back(int(i));
+            }
+        }
+        std::ranges::sort(needed);
+        needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
+        return needed;
+    }
+
+    /// `cycle`: each node needs the next, and the last needs the first. Told in the direction of the data, at the edge that runs
+    /// against the order of the file: most likely the one that was meant to be @prev.
+    void reportCycle(std::vector<int> cycle) {
+        std::ranges::reverse(cycle);
+        std::ranges::rotate(cycle, std::ranges::min_element(cycle));
+        std::vector<std::string> names;
+        Where place = nodes()[std::size_t(cycle[0])].where;
+        std::string hint;
+        for (std::size_t i = 0; i < cycle.size(); ++i) {
+            names.push_back(nodes()[std::size_t(cycle[i])].name);
+            const int from = cycle[i], to = cycle[(i + 1) % cycle.size()];
+            for (std::size_t p = 0; p < nodes()[std::size_t(to)].inputs.size(); ++p) {
+                const auto& input = nodes()[std::size_t(to)].inputs[p];
+                if (!input || input->node != from || input->prev || to > from || !hint.empty()) continue;
+                if (places_[std::size_t(to)].contains(int(p))) place = places_[std::size_t(to)][int(p)];
+                hint = fmt::format("\"{}@prev\" would read last frame's value", graph_.nameOf(*input));
+            }
+        }
+        names.push_back(names.front());
+        problems_.add(place, fmt::format("the passes go in a circle: {}", fmt::join(names, " -> ")), hint);
+    }
+
+    void checkSizes() {
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
+                attempt([&] { countOf(graph_, int(i), int(p), graph_.description.size); });
+            }
+        }
+    }
+
+    PluginLibraries& libraries_;
+    Graph graph_;
+    Problems problems_;
+    std::vector<const NodeDescription*> descriptions_;  // of each node; nullptr for the implied scene
+    std::vector<std::map<int, Where>> places_;          // of each node's wired inputs
+    std::vector<Source> wired_;                         // inputs that the file wires, rightly or wrongly
+    std::map<Path, Hash> hashes_;
+};
+
+}  // namespace
+
+Graph buildGraph(Description description, PluginLibraries& libraries) { return GraphBuilder(std::move(description), libraries).build(); }
+
+Source findSource(const Graph& graph, const std::string& name, const Where& where) {
+    if (name.ends_with("@prev")) throw Error(where, quoted(name) + " can't be shown or dumped", "name the port without @prev");
+    const std::size_t dot = name.find('.');
+    const std::string nodeName = name.substr(0, dot);
+    const int index = graph.find(nodeName);
+    if (index < 0) throw Error(where, "no pass " + quoted(nodeName), didYouMean(nodeName, nodeNames(graph.nodes)));
+    const GraphNode& node = graph.nodes[std::size_t(index)];
+    Source source{index, dot == name.npos ? onlyOutput(node, where) : -1};
+    if (source.port < 0) {
+        const std::string portName = name.substr(dot + 1);
+        const auto any = [](const Port&) { return true; };
+        source.port = findPort(*node.pass, portName, any);
+        if (source.port < 0) throw Error(where, fmt::format("pass \"{}\" has no port \"{}\"", nodeName, portName), didYouMean(portName, portNames(*node.pass, any)));
+    }
+    const bool isInput = graph.port(source).isInput();
+    const std::optional<Source> real = isInput ? node.inputs[std::size_t(source.port)] : throughBypasses(graph.nodes, source, where);
+    if (!real) throw Error(where, fmt::format("{} is not wired, so there is nothing to show", quoted(graph.nameOf(source))));
+    const std::optional<Source> made = isInput ? throughBypasses(graph.nodes, *real, where) : real;
+    if (!made) throw Error(where, fmt::format("{} is not wired, so there is nothing to show", quoted(graph.nameOf(source))));
+    if (made->prev) throw Error(where, fmt::format("{} is last frame's value", quoted(name)), fmt::format("name {}", graph.nameOf({made->node, made->port})));
+    return *made;
+}
+
+}  // namespace lodestir

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// A graph file as it was written, variants and command-line overrides applied: names and values with their places. No GPU, no plugins.
+#pragma once
+#include <framework/core/files.h>
+#include <framework/core/json.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lodestir {
+
+/// "in": { "<port>": "<fromNode>.<fromPort>@prev" }
+struct EdgeDescription {
+    std::string port;
+    std::string fromNode, fromPort;  ///< fromPort is empty where the file names the pass alone
+    bool prev = false;
+    Where where;                     ///< of the value
+    Where portWhere;                 ///< of the key
+};
+
+/// One member of "set"; value.keyWhere() is the place of the name.
+struct Setting {
+    std::string name;
+    Json value;
+};
+
+struct NodeDescription {
+    std::string name, type;
+    std::vector<EdgeDescription> edges;
+    std::vector<Setting> settings;
+    bool off = false;
+    Where where;      ///< of the name
+    Where typeWhere;
+    Where offWhere;
+};
+
+struct Description {
+    Path file;
+    std::string about;
+    Path scene;                   ///< resolved relative to the graph file; empty: none named
+    Where sceneWhere;
+    glm::uvec2 size{960, 540};    ///< pixels
+    int count = 1;                ///< frames
+    std::uint32_t seed = 1;
+    std::vector<NodeDescription> nodes;  ///< in file order
+    std::string showNode, showPort;      ///< showPort is empty where the file names the pass alone
+    Where showWhere;
+    std::vector<std::string> variants;   ///< names, in file order
+    Json source;                         ///< the file after the variant's merge patch and all overrides, without "variants"
+};
+
+/// What the command line (or a study) changes in a graph. Applied in this order: variant, the fields, `set`.
+struct GraphOptions {
+    std::optional<Path> scene;               ///< relative to the working folder
+    std::optional<int> frames;
+    std::optional<glm::uvec2> size;
+    std::optional<std::uint32_t> seed;
+    std::vector<std::string> set;            ///< "pass.param=value", "frame.seed=3", "frame.size=1280x720"; values are JSON, else text
+    std::optional<std::string> variant;
+    std::optional<std::string> show;         ///< "pass" or "pass.port"
+};
+
+/// Largest width and height of a frame, pixels.
+inline constexpr int maxFrameSize = 16384;
+
+/// Reads a graph file. Throws Error with everything that is wrong with its form.
+LODESTIR_API Description loadDescription(const Path& file, const GraphOptions& options = {});
+/// The same for a graph that is already in memory; `file` gives the folder that a relative scene path starts from.
+LODESTIR_API Description readDescription(Json source, const Path& file, const GraphOptions& options = {});
+
+/// "pass.param=value" -> name and value. Error when there is no "=" or no ".".
+struct Assignment {
+    std::string node, name;
+    Json value;
+};
+LODESTIR_API Assignment readAssignment(const std::string& text);
+
+}  // namespace lodestir

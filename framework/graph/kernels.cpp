@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include <framework/graph/kernels.h>
+
+#include <framework/gpu/commands.h>
+#include <framework/gpu/include_closure.h>
+#include <framework/graph/header.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace lodestir {
+namespace {
+
+double millisecondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+const Kernel& Kernels::of(int node, std::string_view shader) {
+    const std::pair<int, std::string> key{node, shader};
+    const auto found = kernels_.find(key);
+    return found != kernels_.end() ? found->second : kernels_.emplace(key, make(node, shader)).first->second;
+}
+
+Kernel Kernels::make(int node, std::string_view shader) {
+    const GraphNode& n = graph_.nodes[std::size_t(node)];
+    const auto start = std::chrono::steady_clock::now();
+    gpu::ShaderSource source;
+    source.file = shaderOf(*n.plugin, shader);
+    source.folders = includeFolders(*n.plugin);
+    source.generated["pass.glsl"] = passHeader(graph_, node);
+    source.defines.emplace_back(options_.rays == RayBody::packet ? "TRACE_PACKET" : "TRACE_LANE", "1");
+    if (persistent()) source.defines.emplace_back("TRACE_PERSISTENT", "1");
+    if (options_.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
+    if (options_.countSteps) source.defines.emplace_back("COUNT_STEPS", "1");
+
+    Kernel kernel;
+    const gpu::IncludeClosure closure(source.file, source.folders, source.generated);
+    kernel.traces = std::ranges::any_of(closure.files(), [](const Path& file) { return file.filename() == "driver.glsl" && file.parent_path().filename() == "trace"; });
+    if (kernel.traces) source.defines.emplace_back("TRACE_DRIVER", "1");
+    const gpu::Spirv spirv = gpu::compileShader(source);
+    kernel.files = spirv.files;
+    const double compile = millisecondsSince(start);
+
+    std::vector<gpu::Specialization> constants;
+    const BlockLayout layout = blockLayout(*n.pass);
+    for (std::size_t i = 0; i < n.pass->parameters.size(); ++i)
+        if (layout.constants[i]) constants.push_back({*layout.constants[i], bitsOf(*n.pass->parameters[i])});
+    const auto driver = std::chrono::steady_clock::now();
+    kernel.pipeline = gpu::Pipeline(device_, spirv, constants, sizeof(Push), n.name + ": " + std::string(shader));
+    // CPU drivers compile at the first dispatch: let that be one that does nothing.
+    Push push{};
+    push.warm = 1;
+    gpu::runOnce(device_, [&](gpu::Commands& commands) { commands.dispatch(kernel.pipeline, std::as_bytes(std::span(&push, 1)), 1); });
+    reports_.push_back({n.name, std::string(shader), spirv.cached, compile, millisecondsSince(driver)});
+    return kernel;
+}
+
+}  // namespace lodestir

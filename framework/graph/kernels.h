@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// The shaders of a running graph: compiled against the pass.glsl of their node, turned into pipelines, warmed by a dispatch that returns at once.
+#pragma once
+#include <framework/gpu/pipeline.h>
+#include <framework/graph/graph.h>
+#include <framework/graph/runner.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lodestir {
+
+struct Kernel {
+    gpu::Pipeline pipeline;
+    bool traces = false;        ///< includes trace/driver.glsl
+    std::vector<Path> files;    ///< include closure, for watching
+};
+
+class Kernels {
+public:
+    Kernels(const gpu::Device& device, const Graph& graph, const RunnerOptions& options) : device_(device), graph_(graph), options_(options) {}
+    /// The kernel of a node's shader; made ready when it is first asked for. Error with the compiler's messages.
+    const Kernel& of(int node, std::string_view shader);
+    const std::vector<ShaderReport>& reports() const { return reports_; }
+    /// Persistent workgroups: a few that fetch tiles from a counter, because a CPU driver spreads workgroups over its threads beforehand.
+    bool persistent() const { return device_.facts().type == "cpu"; }
+
+private:
+    Kernel make(int node, std::string_view shader);
+
+    const gpu::Device& device_;
+    const Graph& graph_;
+    const RunnerOptions& options_;
+    std::map<std::pair<int, std::string>, Kernel, std::less<>> kernels_;
+    std::vector<ShaderReport> reports_;
+};
+
+}  // namespace lodestir

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Loads pass libraries with dlopen and looks up their passes. LODESTIR_ABI is given by the build.
+#include <framework/graph/plugins.h>
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+namespace lodestir {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* entryPoint = "lodestirPlugins";
+
+/// The library that a pass was compiled into.
+Path libraryOf(const Plugin& plugin) {
+    Dl_info info{};
+    const bool found = ::dladdr(reinterpret_cast<const void*>(plugin.create), &info) != 0 && info.dli_fname;
+    return found ? Path(info.dli_fname) : Path();
+}
+
+void checkAbi(const Plugin& plugin, const std::string& folder, const Path& file, const Where& where) {
+    if (frameworkAbi() == plugin.abi) return;
+    throw Error(where.file.empty() ? Where{file.string()} : where,
+                "pass library \"" + folder + "\" was built against framework " + plugin.abi + ", this is " + std::string(frameworkAbi()),
+                "run: cmake --build build --target pass_" + folder);
+}
+
+}  // namespace
+
+std::string_view frameworkAbi() { return LODESTIR_ABI; }
+
+PluginLibraries::PluginLibraries(std::vector<Path> extraFolders) {
+    folders_.push_back(passFolder());
+    for (Path& folder : extraFolders) {
+        std::error_code none;
+        if (!fs::is_directory(folder, none)) throw Error(Where{folder.string()}, "there is no such folder of passes");
+        folders_.push_back(fs::absolute(folder));  // dlopen looks for a name without a slash elsewhere
+    }
+}
+
+void PluginLibraries::addBuiltIn(const std::string& type, const Plugin& plugin) { builtIns_.insert_or_assign(type, plugin); }
+
+Path PluginLibraries::fileOf(const std::string& folder) const {
+    for (const Path& root : folders_) {
+        const Path file = root / folder / ("lib" + folder + ".so");
+        std::error_code none;
+        if (fs::is_regular_file(file, none)) return file;
+    }
+    return {};
+}
+
+std::vector<std::string> PluginLibraries::knownFolders() const {
+    std::set<std::string> names;
+    for (const auto& [type, plugin] : builtIns_) names.insert(type);
+    for (const Path& root : folders_) {
+        std::error_code none;
+        for (const fs::directory_entry& entry : fs::directory_iterator(root, none)) {
+            const std::string name = entry.path().filename().string();
+            if (!fileOf(name).empty()) names.insert(name);
+        }
+    }
+    return {names.begin(), names.end()};
+}
+
+const std::vector<const Plugin*>& PluginLibraries::library(const std::string& folder, const Path& file, const Where& where) {
+    if (const auto known = libraries_.find(folder); known != libraries_.end()) return known->second;
+
+    // A missing symbol is an error now, with its name, and no library sees the symbols of another.
+    void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (!handle) {
+        const char* reason = ::dlerror();
+        throw Error(where, "pass library \"" + folder + "\" can't be loaded: " + (reason ? reason : "unknown reason"),
+                    "run: cmake --build build --target pass_" + folder);
+    }
+    using List = const Plugin* (*)();
+    const auto list = reinterpret_cast<List>(::dlsym(handle, entryPoint));
+    const Plugin* first = list ? list() : nullptr;
+    if (!first) throw Error(where, "\"" + file.string() + "\" exports no pass", "end its .cpp with LODESTIR_PASS(...)");
+
+    std::vector<const Plugin*> plugins;
+    for (const Plugin* plugin = first; plugin; plugin = plugin->next) {
+        checkAbi(*plugin, folder, file, where);  // before `next`, which another framework might keep elsewhere
+        plugins.push_back(plugin);
+    }
+    std::ranges::reverse(plugins);  // each pass put itself before the others
+    return libraries_.emplace(folder, std::move(plugins)).first->second;
+}
+
+const Plugin& PluginLibraries::find(const std::string& type, const Where& where) {
+    if (const auto builtIn = builtIns_.find(type); builtIn != builtIns_.end()) return builtIn->second;
+    const std::size_t dot = type.find('.');
+    const std::string folder = type.substr(0, dot);
+    const Path file = fileOf(folder);
+    if (file.empty()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(folder, knownFolders()));
+
+    const std::vector<const Plugin*>& plugins = library(folder, file, where);
+    std::vector<std::string> names;
+    for (const Plugin* plugin : plugins) names.push_back(folder + "." + plugin->type);
+    if (dot == type.npos) {
+        if (plugins.size() == 1) return *plugins.front();
+        throw Error(where, "\"" + type + "\" holds " + std::to_string(plugins.size()) + " passes", didYouMean(type, names));
+    }
+    const auto found = std::ranges::find(names, type);
+    if (found == names.end()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(type, names));
+    return *plugins[static_cast<std::size_t>(found - names.begin())];
+}
+
+std::vector<PluginLibraries::Entry> PluginLibraries::all(Problems& problems) {
+    std::vector<Entry> entries;
+    for (const std::string& name : knownFolders()) {
+        if (const auto builtIn = builtIns_.find(name); builtIn != builtIns_.end()) {
+            entries.push_back({name, &builtIn->second});
+            continue;
+        }
+        try {
+            const std::vector<const Plugin*>& plugins = library(name, fileOf(name), {});
+            for (const Plugin* plugin : plugins) entries.push_back({plugins.size() == 1 ? name : name + "." + plugin->type, plugin});
+        } catch (const Error& error) {
+            problems.add(error);
+        }
+    }
+    return entries;
+}
+
+Path shaderOf(const Plugin& plugin, std::string_view file) {
+    const std::vector<Path> folders{libraryOf(plugin).parent_path(), Path(plugin.source).parent_path()};
+    for (const Path& folder : folders) {
+        std::error_code none;
+        if (!folder.empty() && fs::is_regular_file(folder / file, none)) return folder / file;
+    }
+    throw Error("shader \"" + std::string(file) + "\" of pass \"" + plugin.type + "\" is neither in " + folders[0].string() + " nor in " + folders[1].string());
+}
+
+std::vector<Path> includeFolders(const Plugin& plugin) {
+    return {libraryOf(plugin).parent_path(), Path(plugin.source).parent_path(), shaderFolder()};
+}
+
+}  // namespace lodestir

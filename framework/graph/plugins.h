@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Finds pass libraries by the names of their folders and loads them when a type is first named.
+#pragma once
+#include <framework/core/error.h>
+#include <framework/core/files.h>
+#include <framework/graph/pass.h>
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lodestir {
+
+/// Pass types are named "folder" where the folder's library holds one pass, else "folder.Struct". The library of folder x is x/libx.so in
+/// passFolder() or, after that, in the extra folders. Loaded libraries stay mapped until the process ends.
+class LODESTIR_API PluginLibraries {
+public:
+    explicit PluginLibraries(std::vector<Path> extraFolders = {});
+
+    /// A pass that is part of the framework (or of a test); hides a folder of the same name.
+    void addBuiltIn(const std::string& type, const Plugin& plugin);
+    bool hasBuiltIn(const std::string& type) const { return builtIns_.contains(type); }
+    /// The plugin of a type, loading its library. Error at `where`: no such folder or struct (with a guess), not loadable, built against another framework.
+    const Plugin& find(const std::string& type, const Where& where = {});
+
+    struct Entry {
+        std::string type;
+        const Plugin* plugin;
+    };
+    /// Every pass of every folder, sorted by type, built-in ones included; what cannot be loaded goes to `problems`.
+    std::vector<Entry> all(Problems& problems);
+    /// The folders that are searched.
+    const std::vector<Path>& folders() const { return folders_; }
+
+private:
+    /// The passes of one folder, in order of declaration; loads the library.
+    const std::vector<const Plugin*>& library(const std::string& folder, const Path& file, const Where& where);
+    Path fileOf(const std::string& folder) const;         ///< empty: there is none
+    std::vector<std::string> knownFolders() const;        ///< sorted, with the built-in types
+
+    std::vector<Path> folders_;
+    std::map<std::string, Plugin> builtIns_;
+    std::map<std::string, std::vector<const Plugin*>> libraries_;
+};
+
+/// Names the headers, the compiler and the flags that this framework was built with.
+LODESTIR_API std::string_view frameworkAbi();
+/// A file of a pass's folder: beside its library first, then beside its source.
+LODESTIR_API Path shaderOf(const Plugin& plugin, std::string_view file);
+/// Folders in which the includes of a pass's shaders and struct headers are looked up: beside the library, beside the source, the framework's shaders.
+LODESTIR_API std::vector<Path> includeFolders(const Plugin& plugin);
+
+}  // namespace lodestir

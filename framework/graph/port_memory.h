@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The GPU memory behind the ports of a plan: one or two copies each, with the version of what they hold.
+#pragma once
+#include <framework/gpu/commands.h>
+#include <framework/graph/plan.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace lodestir {
+
+/// Memory of one resource. Without history both copies are the same buffer.
+struct PortMemory {
+    std::array<gpu::Buffer*, 2> copies{};
+    std::array<std::shared_ptr<const void>, 2> keep;  ///< handles: owns what the struct points to
+    int current = 0;
+    std::uint64_t version = 0;  ///< counts changes of the content
+    std::size_t bytes = 0;
+    bool handle = false;
+
+    gpu::Buffer& now() const { return *copies[std::size_t(current)]; }
+    gpu::Buffer& last() const { return *copies[std::size_t(1 - current)]; }
+};
+
+class PortMemories {
+public:
+    PortMemories(const gpu::Device& device, const Graph& graph, const Plan& plan, glm::uvec2 frame);
+    PortMemory& at(std::size_t resource) { return memories_[resource]; }
+    const PortMemory& at(std::size_t resource) const { return memories_[resource]; }
+    /// Zero everywhere (`all`), or only in what lives from frame to frame.
+    void clear(gpu::Commands& commands, const Plan& plan, bool all);
+    std::size_t bytes() const { return bytes_; }
+
+private:
+    std::vector<std::unique_ptr<gpu::Buffer>> buffers_;
+    std::vector<PortMemory> memories_;  ///< parallel to Plan::resources
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace lodestir

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Runs a graph frame by frame on a device: allocates what the plan asks for, fills each pass's block, records, submits, times, counts rays.
+#pragma once
+#include <framework/gpu/commands.h>
+#include <framework/graph/graph.h>
+#include <framework/graph/plan.h>
+#include <framework/image/image.h>
+#include <framework/shaders/base/frame.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace lodestir {
+
+/// The bodies of trace(): see shaders/trace.
+enum class RayBody : std::uint8_t { packet, lane };
+LODESTIR_API std::string_view nameOf(RayBody body);
+/// The body for a device: the one named by `wish` ("packet", "lane"), or where that is empty the fastest it can run. Error where it cannot.
+LODESTIR_API RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish);
+
+struct RunnerOptions {
+    RayBody rays = RayBody::packet;
+    std::vector<Source> pinned;  ///< ports to be read after a frame, besides the shown one
+    bool checkBounds = false;    ///< count accesses outside a port; Error after the frame
+    bool allBarriers = false;    ///< a barrier before every step
+    bool countSteps = false;     ///< count the nodes that traversal visits (costs time)
+};
+
+using RayCounts = std::array<std::uint64_t, RAYS_PURPOSES>;
+
+struct PassReport {
+    std::string name;
+    bool ran = false;         ///< false: an onChange pass with nothing to do
+    bool setup = false;       ///< onChange: its time counts as set-up
+    double milliseconds = 0;  ///< on the device
+    RayCounts rays{};
+};
+
+struct FrameReport {
+    std::uint32_t frame = 0;
+    double milliseconds = 0;  ///< on the device, first to last step
+    std::vector<PassReport> passes;
+};
+
+/// What it took to get one shader ready.
+struct ShaderReport {
+    std::string pass, shader;
+    bool cached = false;           ///< SPIR-V came from the disk cache
+    double compileMilliseconds = 0;  ///< GLSL to SPIR-V
+    double driverMilliseconds = 0;   ///< pipeline creation and first dispatch, where drivers compile
+};
+
+class LODESTIR_API Runner {
+public:
+    /// Device, graph and scene must outlive the runner. Error when memory is out.
+    Runner(const gpu::Device& device, Graph& graph, const Scene& scene, RunnerOptions options);
+    ~Runner();
+
+    /// Runs the next frame and waits for it. Parameters changed since the last frame take effect.
+    FrameReport run();
+    std::uint32_t nextFrame() const;
+    void setFrame(std::uint32_t frame);  ///< the number of the next frame; history stays
+    void reset();                        ///< history and states are void at the next frame
+    void resize(glm::uvec2 size);        ///< reallocates; history is void
+
+    /// An image port's content after the last frame (pinned or shown ports only): channels and texels as its format has them.
+    ImageData readImage(const Source& source) const;
+    /// The bytes of an image or buffer port after the last frame.
+    std::vector<std::byte> readBytes(const Source& source) const;
+
+    const Plan& plan() const;
+    glm::uvec2 size() const;
+    std::size_t memoryBytes() const;                     ///< of ports
+    const std::vector<ShaderReport>& shaders() const;    ///< made ready so far
+
+private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace lodestir

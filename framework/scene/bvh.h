@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Bounding volume hierarchies: 4-wide nodes of 64 bytes with 16-bit boxes on a per-mesh grid, built by binned SAH.
+#pragma once
+#include <framework/core/api.h>
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lodestir {
+
+/// Node references: below 0x80000000 a node index; 0x80000000 | (count - 1) << 28 | first: a leaf of 1..4 triangles;
+/// 0xd0000000: return from an instance; 0xe0000000 | index: an instance; 0xffffffff: none.
+namespace bvh_ref {
+inline constexpr std::uint32_t leaf = 0x80000000u, back = 0xd0000000u, instance = 0xe0000000u, empty = 0xffffffffu;
+}
+
+/// Dword 2i holds word i of {X0..X3, Y0..Y3}, dword 2i + 1 word i of {Z0..Z3, C0..C3};
+/// X, Y, Z = low | high << 16 of a child's box on the grid, C = child reference. An absent child has low > high.
+struct BvhNode {
+    std::array<std::uint32_t, 16> dwords;
+};
+
+/// v0, e1 = v1 - v0, e2 = v2 - v0 in grid space; then `mask`: material index + 1 where hits are to be tested against its alpha mask, 0: opaque; then two spare words.
+struct BvhTriangle {
+    glm::vec3 v0, e1, e2;
+    std::uint32_t mask = 0, spare0 = 0, spare1 = 0;
+};
+static_assert(sizeof(BvhNode) == 64 && sizeof(BvhTriangle) == 48);
+
+struct Bvh {
+    glm::vec3 gridBase{0}, gridScale{1};      ///< object = base + scale * grid
+    std::uint32_t root = bvh_ref::empty;      ///< relative to this BVH's own nodes and triangles
+    std::vector<BvhNode> nodes;
+    std::vector<BvhTriangle> triangles;       ///< BVH order
+    std::vector<std::uint32_t> order;         ///< BVH order -> input triangle
+};
+
+/// Nodes on the way from the root to any leaf, at most. Traversal keeps up to three references for each: `bvhStack` slots hold them all.
+inline constexpr int bvhDepth = 15, bvhStack = 48;
+
+/// A reference as it reads when its BVH's nodes and triangles stand behind others in shared arrays. An empty BVH becomes bvh_ref::back,
+/// from which traversal returns at once, so the result may always stand in a table of roots.
+LODESTIR_API std::uint32_t relocated(std::uint32_t reference, std::size_t firstNode, std::size_t firstTriangle);
+/// Appends the nodes with their references relocated; returns the relocated root.
+LODESTIR_API std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle);
+
+struct Box {
+    glm::vec3 low{1e30f}, high{-1e30f};
+};
+
+/// The triangles of one mesh level. All levels of a mesh share one `grid` box (the union of their bounds), because an instance has one
+/// transform into it; a default Box means the level's own bounds. `masks` (per triangle, see BvhTriangle::mask) may be empty.
+struct BvhInput {
+    std::span<const glm::vec3> positions;
+    std::span<const glm::uvec3> triangles;
+    std::span<const std::uint32_t> masks = {};
+    Box grid = {};
+};
+/// Builds the hierarchy of one mesh level. Parallel, the same bits for any core count. Triangles with a corner that isn't finite
+/// (or beyond 1e18) can't be hit and are left out of `order`. Error above 2^28 triangles.
+LODESTIR_API Bvh buildBvh(const BvhInput& input);
+/// The same, kept in the cache folder by content where building takes longer than reading (from 16384 triangles on).
+LODESTIR_API Bvh cachedBvh(const BvhInput& input);
+
+/// Bounds of the BVH's content after a transform: of its upper boxes' corners, tighter than those of one box.
+LODESTIR_API Box boundsOf(const Bvh& bvh, const glm::mat4& transform);
+/// Builds the hierarchy over boxes; leaves are instance references (bvh_ref::instance | box). Triangles stay empty; order = boxes in
+/// the order of the leaves. Boxes that are empty or not finite are left out; none left: root is bvh_ref::empty.
+LODESTIR_API Bvh buildTopLevel(std::span<const Box> boxes);
+
+}  // namespace lodestir

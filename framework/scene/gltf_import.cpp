@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Notes, problems and the reading of extension objects.
+#include <framework/scene/gltf_import.h>
+
+#include <cmath>
+
+namespace lodestir {
+
+void GltfImport::note(const std::string& text) {
+    if (noted.insert(text).second) scene.notes.push_back(file.path.filename().string() + ": " + text);
+}
+
+void GltfImport::problem(const std::string& pointer, const std::string& what, const std::string& hint) {
+    problems.add(file.error(pointer, what, hint));
+}
+
+const tinygltf::Value* findExtension(const tinygltf::ExtensionMap& extensions, const char* name) {
+    const auto found = extensions.find(name);
+    return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
+}
+
+float numberOf(const tinygltf::Value* object, const char* key, float otherwise) {
+    if (!object || !object->Has(key) || !object->Get(key).IsNumber()) return otherwise;
+    const auto value = static_cast<float>(object->Get(key).GetNumberAsDouble());
+    return std::isfinite(value) ? value : otherwise;
+}
+
+glm::vec3 vectorOf(const tinygltf::Value* object, const char* key, glm::vec3 otherwise) {
+    if (!object || !object->Has(key)) return otherwise;
+    const tinygltf::Value& array = object->Get(key);
+    if (array.ArrayLen() < 3) return otherwise;
+    glm::vec3 result = otherwise;
+    for (int i = 0; i < 3; ++i) {
+        if (!array.Get(i).IsNumber()) return otherwise;
+        result[i] = static_cast<float>(array.Get(i).GetNumberAsDouble());
+    }
+    return result;
+}
+
+}  // namespace lodestir

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Nodes of a glTF model.
+#include <framework/scene/accessor.h>
+#include <framework/scene/animation.h>
+#include <framework/scene/gltf_hierarchy.h>
+#include <framework/scene/gltf_mesh.h>
+#include <framework/scene/gltf_node.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace lodestir {
+namespace {
+
+template <class V> V vectorFrom(const GltfFile& file, const std::vector<double>& values, V otherwise, const std::string& pointer) {
+    if (values.empty()) return otherwise;
+    if (values.size() != static_cast<std::size_t>(V::length())) throw file.error(pointer, fmt::format("expected {} numbers, got {}", V::length(), values.size()));
+    V result;
+    for (int i = 0; i < V::length(); ++i) result[i] = static_cast<float>(values[static_cast<std::size_t>(i)]);
+    return result;
+}
+
+Node nodeFrom(const GltfFile& file, int index) {
+    const tinygltf::Node& source = file.model.nodes[static_cast<std::size_t>(index)];
+    const std::string pointer = fmt::format("/nodes/{}", index);
+    Node node;
+    node.name = source.name.empty() ? fmt::format("node {}", index) : source.name;
+    if (!source.matrix.empty()) {
+        if (source.matrix.size() != 16) throw file.error(pointer + "/matrix", fmt::format("expected 16 numbers, got {}", source.matrix.size()));
+        glm::mat4 matrix;
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = static_cast<float>(source.matrix[static_cast<std::size_t>(i)]);
+        node.matrix = matrix;
+        return node;
+    }
+    node.translation = vectorFrom(file, source.translation, glm::vec3(0), pointer + "/translation");
+    node.scale = vectorFrom(file, source.scale, glm::vec3(1), pointer + "/scale");
+    const glm::vec4 q = vectorFrom(file, source.rotation, glm::vec4(0, 0, 0, 1), pointer + "/rotation");
+    const float length = glm::length(q);
+    if (!(length > 0)) throw file.error(pointer + "/rotation", "a rotation cannot be a zero quaternion");
+    node.rotation = glm::quat(q.w / length, q.x / length, q.y / length, q.z / length);
+    return node;
+}
+
+class NodeLoader {
+public:
+    explicit NodeLoader(GltfImport& import) : import_(import), model_(import.file.model) {}
+
+    void load(const GltfVisit& visit, std::uint32_t sceneParent) {
+        const auto n = static_cast<std::size_t>(visit.node);
+        const tinygltf::Node& source = model_.nodes[n];
+        Node node = nodeFrom(import_.file, visit.node);
+        node.parent = visit.parent < 0 ? sceneParent : import_.nodes[static_cast<std::size_t>(visit.parent)];
+        const auto place = static_cast<std::uint32_t>(import_.scene.nodes.size());
+        import_.nodes[n] = place;
+        import_.scene.nodes.push_back(std::move(node));
+        if (source.skin >= 0) import_.note("skins are ignored; meshes keep their base shape");
+        if (source.mesh >= 0) addMesh(visit.node, place);
+        else if (findExtension(source.extensions, "MSFT_lod")) import_.note("levels of detail of nodes without a mesh of their own are ignored");
+        if (source.camera >= 0) addCamera(source.camera, visit.node, place);
+        if (const tinygltf::Value* punctual = findExtension(source.extensions, "KHR_lights_punctual")) addLight(*punctual, visit.node, place);
+    }
+
+private:
+    void addMesh(int node, std::uint32_t place) {
+        const std::uint32_t mesh = meshOf(node);
+        if (mesh == none) return;
+        const tinygltf::Node& source = model_.nodes[static_cast<std::size_t>(node)];
+        const std::string& meshName = import_.scene.meshes[mesh].name;
+        const std::string name = source.name.empty() ? meshName : source.name;
+        if (const tinygltf::Value* many = findExtension(source.extensions, "EXT_mesh_gpu_instancing")) addMany(*many, node, place, mesh, name);
+        else import_.scene.instances.push_back({name, mesh, place});
+    }
+
+    /// EXT_mesh_gpu_instancing: a child node with an instance for each element of the attributes.
+    void addMany(const tinygltf::Value& extension, int node, std::uint32_t place, std::uint32_t mesh, const std::string& name) {
+        const std::string pointer = fmt::format("/nodes/{}/extensions/EXT_mesh_gpu_instancing/attributes", node);
+        std::size_t count = 0;
+        const auto values = [&](const char* key, int components) {
+            std::vector<float> result;
+            if (!extension.Has("attributes") || !extension.Get("attributes").Has(key)) return result;
+            const Accessor accessor(import_.file, static_cast<int>(numberOf(&extension.Get("attributes"), key, -1)), pointer + "/" + key);
+            if (accessor.components() != components) throw import_.file.error(pointer + "/" + key, fmt::format("expected {} components, got {}", components, accessor.components()));
+            if (count != 0 && accessor.count() != count) throw import_.file.error(pointer + "/" + key, "the attributes have different counts");
+            count = accessor.count();
+            return accessor.floats();
+        };
+        const std::vector<float> translations = values("TRANSLATION", 3), rotations = values("ROTATION", 4), scales = values("SCALE", 3);
+        for (std::size_t i = 0; i < count; ++i) {
+            Node child;
+            child.name = fmt::format("{} {}", name, i);
+            child.parent = place;
+            if (!translations.empty()) child.translation = {translations[3 * i], translations[3 * i + 1], translations[3 * i + 2]};
+            if (!scales.empty()) child.scale = {scales[3 * i], scales[3 * i + 1], scales[3 * i + 2]};
+            if (!rotations.empty()) {
+                const glm::quat q(rotations[4 * i + 3], rotations[4 * i], rotations[4 * i + 1], rotations[4 * i + 2]);
+                if (glm::dot(q, q) > 0) child.rotation = glm::normalize(q);
+            }
+            import_.scene.instances.push_back({child.name, mesh, static_cast<std::uint32_t>(import_.scene.nodes.size())});
+            import_.scene.nodes.push_back(std::move(child));
+        }
+    }
+
+    /// Scene mesh of a node: its own mesh and the meshes of its coarser levels; `none` when it has no triangles.
+    std::uint32_t meshOf(int node) {
+        std::vector<int> chain{node};
+        const std::vector<int> coarser = coarserLevels(import_.file, node);
+        chain.insert(chain.end(), coarser.begin(), coarser.end());
+        std::vector<std::pair<int, std::vector<float>>> key;  // mesh and placement of each level
+        std::vector<glm::mat4> placements;
+        const glm::mat4 base = localMatrix(nodeFrom(import_.file, node));
+        for (int level : chain) {
+            const glm::mat4 placement = level == node ? glm::mat4(1) : glm::inverse(base) * localMatrix(nodeFrom(import_.file, level));
+            placements.push_back(placement);
+            key.emplace_back(model_.nodes[static_cast<std::size_t>(level)].mesh, std::vector<float>(&placement[0][0], &placement[0][0] + 16));
+        }
+        const auto known = meshes_.find(key);
+        if (known != meshes_.end()) return known->second;
+        const std::uint32_t mesh = buildMesh(node, chain, placements);
+        meshes_.emplace(std::move(key), mesh);
+        return mesh;
+    }
+
+    std::uint32_t buildMesh(int node, const std::vector<int>& chain, const std::vector<glm::mat4>& placements) {
+        Mesh mesh;
+        std::vector<std::size_t> source;  // index in the chain of each level
+        for (std::size_t i = 0; i < chain.size(); ++i) {
+            const int index = model_.nodes[static_cast<std::size_t>(chain[i])].mesh;
+            const std::string user = fmt::format("/nodes/{}/mesh", chain[i]);
+            if (index >= static_cast<int>(model_.meshes.size())) throw import_.file.error(user, fmt::format("there is no mesh {}, the file has {}", index, model_.meshes.size()));
+            if (i > 0 && !model_.nodes[static_cast<std::size_t>(chain[i])].children.empty()) import_.note("children of nodes that are levels of detail are ignored");
+            MeshLevel level = index >= 0 ? loadGltfMesh(import_, index) : MeshLevel{};
+            if (level.triangles.empty()) {
+                if (i == 0) return none;
+                import_.note(fmt::format("a level of detail without triangles (node {}) is left out", chain[i]));
+                continue;
+            }
+            if (mesh.levels.size() == maxLevels) {
+                import_.note(fmt::format("levels of detail beyond {} are left out", maxLevels));
+                break;
+            }
+            if (!isIdentity(placements[i])) transformLevel(level, placements[i]);
+            mesh.levels.push_back(std::move(level));
+            source.push_back(i);
+        }
+        readErrors(node, source, mesh);
+        const int own = model_.nodes[static_cast<std::size_t>(node)].mesh;
+        const std::string& name = model_.meshes[static_cast<std::size_t>(own)].name;
+        mesh.name = name.empty() ? fmt::format("mesh {}", own) : name;
+        import_.scene.meshes.push_back(std::move(mesh));
+        return static_cast<std::uint32_t>(import_.scene.meshes.size() - 1);
+    }
+
+    static bool isIdentity(const glm::mat4& matrix) {
+        for (int i = 0; i < 16; ++i) {
+            if (std::abs(matrix[i / 4][i % 4] - (i % 5 == 0 ? 1.0f : 0.0f)) > 1e-6f) return false;
+        }
+        return true;
+    }
+
+    void readErrors(int node, const std::vector<std::size_t>& source, Mesh& mesh) {
+        const tinygltf::Value& extras = model_.nodes[static_cast<std::size_t>(node)].extras;
+        if (!extras.IsObject() || !extras.Has("lod_error") || !extras.Get("lod_error").IsArray()) return;
+        const tinygltf::Value& errors = extras.Get("lod_error");
+        for (std::size_t i = 1; i < mesh.levels.size(); ++i) {
+            const tinygltf::Value& error = errors.Get(static_cast<int>(source[i]));
+            if (error.IsNumber()) mesh.levels[i].error = std::max(static_cast<float>(error.GetNumberAsDouble()), mesh.levels[i - 1].error);
+        }
+    }
+
+    void addCamera(int index, int node, std::uint32_t place) {
+        if (index >= static_cast<int>(model_.cameras.size())) {
+            throw import_.file.error(fmt::format("/nodes/{}/camera", node), fmt::format("there is no camera {}, the file has {}", index, model_.cameras.size()));
+        }
+        const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(index)];
+        const std::string& name = import_.scene.nodes[place].name;
+        const auto fovy = static_cast<float>(camera.perspective.yfov);
+        if (camera.type != "perspective") {
+            import_.note(fmt::format("camera \"{}\" is orthographic; it is ignored", name));
+        } else if (!(fovy > 0) || fovy >= 3.14159f) {
+            import_.note(fmt::format("camera \"{}\" has a field of view of {} radians; it is ignored", name, fovy));
+        } else if (import_.scene.camera.node != none || !import_.scene.camera.keys.empty()) {
+            import_.note("only the first camera is used");
+        } else {
+            import_.scene.camera.node = place;
+            import_.scene.camera.keys = {CameraKey{.fovy = fovy}};
+            import_.note(fmt::format("camera \"{}\" of the model is used", name));
+        }
+    }
+
+    void addLight(const tinygltf::Value& punctual, int node, std::uint32_t place) {
+        const int index = static_cast<int>(numberOf(&punctual, "light", -1));
+        const std::string pointer = fmt::format("/nodes/{}/extensions/KHR_lights_punctual/light", node);
+        if (index < 0 || static_cast<std::size_t>(index) >= model_.lights.size()) {
+            throw import_.file.error(pointer, fmt::format("there is no light {}, the file has {}", index, model_.lights.size()));
+        }
+        const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(index)];
+        const std::string lightPointer = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
+        Light light;
+        light.name = source.name.empty() ? import_.scene.nodes[place].name : source.name;
+        if (source.type == "spot") light.type = LightType::spot;
+        else if (source.type == "directional") light.type = LightType::directional;
+        else if (source.type != "point") throw import_.file.error(lightPointer + "/type", fmt::format("there is no light type \"{}\"", source.type), "known: point, spot, directional");
+        light.color = glm::max(vectorFrom(import_.file, source.color, glm::vec3(1), lightPointer + "/color"), 0.0f);
+        light.intensity = std::max(static_cast<float>(source.intensity), 0.0f);
+        light.range = std::max(static_cast<float>(source.range), 0.0f);
+        constexpr float widest = 1.5707964f;
+        light.outerCone = std::clamp(static_cast<float>(source.spot.outerConeAngle), 1e-4f, widest);
+        light.innerCone = std::clamp(static_cast<float>(source.spot.innerConeAngle), 0.0f, light.outerCone);
+        light.node = place;
+        import_.scene.lights.push_back(std::move(light));
+    }
+
+    GltfImport& import_;
+    const tinygltf::Model& model_;
+    std::map<std::vector<std::pair<int, std::vector<float>>>, std::uint32_t> meshes_;
+};
+
+}  // namespace
+
+void loadGltfNodes(GltfImport& import, std::uint32_t parent) {
+    import.nodes.assign(import.file.model.nodes.size(), none);
+    std::vector<GltfVisit> visits;
+    try {
+        visits = visitGltfScene(import.file);
+    } catch (const Error& error) {
+        import.problems.add(error);
+        return;
+    }
+    NodeLoader loader(import);
+    for (const GltfVisit& visit : visits) {
+        try {
+            loader.load(visit, parent);
+        } catch (const Error& error) {
+            import.problems.add(error);
+        }
+        if (import.nodes[static_cast<std::size_t>(visit.node)] == none) return;  // its children have nothing to hang on
+    }
+}
+
+}  // namespace lodestir

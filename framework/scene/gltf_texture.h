@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Textures of a glTF model: images and samplers become Scene::textures, each combination once.
+#pragma once
+#include <framework/scene/gltf_import.h>
+
+#include <map>
+#include <tuple>
+
+namespace lodestir {
+
+class GltfTextures {
+public:
+    explicit GltfTextures(GltfImport& import) : import_(import) {}
+
+    /// Scene texture for the file's texture `index`, empty until decode(); `none` (with a note or a problem at `user`)
+    /// when it has no image that can be read.
+    std::uint32_t use(int index, bool srgb, const std::string& user);
+
+    /// Reads and decodes every image that was asked for, on all cores. Problems are gathered.
+    void decode();
+
+private:
+    using Key = std::tuple<int, bool, bool, Wrap, Wrap>;  // image, sRGB, nearest, wrap of u and v
+
+    GltfImport& import_;
+    std::map<Key, std::uint32_t> textures_;
+    std::map<int, std::vector<std::uint32_t>> users_;  ///< Scene textures of each image
+};
+
+/// Decodes PNG, JPEG, BMP, TGA or GIF bytes to 8-bit RGBA into width, height and rgba of `texture`. Error without a place when it cannot.
+void decodeImage(std::span<const std::byte> bytes, Texture& texture);
+
+}  // namespace lodestir

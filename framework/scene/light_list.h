@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Which lights a scene has and how often each is chosen.
+#pragma once
+#include <framework/scene/scene.h>
+#include <framework/shaders/world/world.h>
+
+#include <span>
+#include <vector>
+
+namespace lodestir {
+
+/// Emissive triangles of a mesh's finest level, in BVH order.
+struct MeshEmitters {
+    std::vector<std::uint32_t> primitives;  ///< indices into World.primitives
+    std::vector<glm::uvec3> triangles;      ///< their vertex indices within the level
+    std::vector<std::uint32_t> materials;
+    bool empty() const { return primitives.empty(); }
+};
+
+struct LightList {
+    std::vector<LightRecord> lights;
+    std::vector<std::uint32_t> firstLight;  ///< of each instance, NONE: not emissive
+    std::uint32_t environmentLight = NONE;
+};
+
+/// Lists emissive triangles by instance, then lights without extent, then the environment. The probability of a light is half
+/// proportional to its power and half shared evenly among the kinds present, so that no kind starves.
+LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const glm::mat4> nodeMatrices,
+                     float sceneRadius);
+
+}  // namespace lodestir

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Puts a scene into GPU memory and makes the World of each frame: what a World port holds.
+#pragma once
+#include <framework/gpu/buffer.h>
+#include <framework/scene/scene.h>
+#include <framework/shaders/world/world.h>
+
+#include <memory>
+
+namespace lodestir {
+
+/// A World together with what keeps its memory alive.
+struct FrameWorld {
+    World value;
+    std::shared_ptr<const void> keep;
+};
+
+/// Uploads what never changes (BVHs, vertices, materials, textures, environment) once; frames share it.
+class LODESTIR_API WorldBuilder {
+public:
+    WorldBuilder(const gpu::Device& device, const Scene& scene);
+    ~WorldBuilder();
+    /// The World at a frame (fractions are fine), for an image of `size` pixels. Transforms, the top level and lights are
+    /// made anew only when something moved; a World handed out earlier stays as it was.
+    FrameWorld at(float frame, glm::uvec2 size);
+    std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
+
+private:
+    struct Fixed;
+    struct Moving;
+    std::shared_ptr<const Moving> makeMoving(const std::vector<glm::mat4>& matrices) const;
+
+    const gpu::Device& device_;
+    const Scene& scene_;
+    std::shared_ptr<const Fixed> fixed_;
+    std::shared_ptr<const Moving> moving_;
+    std::vector<glm::mat4> matrices_;  ///< that moving_ was made for
+};
+
+}  // namespace lodestir

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Unit vectors and colours in 32 bits; framework/scene/pack.h is the same in C++.
+//
+// Unit vector: octahedral map (Meyer et al. 2010; Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit
+// Vectors), x in bits 0-15, y in bits 16-31, each a two's complement integer round(32767 * coordinate).
+// Tangent: the same with bit 0 replaced by the sign: 1 means bitangent = -cross(normal, tangent). The word 0 means "no tangent"; the one
+// direction that would give it, +Z with sign 0, is stored as 0x00010000.
+// Colour: 8-bit unorm, red in bits 0-7.
+#include "base/math.glsl"
+
+const uint TANGENT_NONE = 0u;
+
+uint packNormal(vec3 n) {
+    n /= abs(n.x) + abs(n.y) + abs(n.z);
+    vec2 folded = (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
+    vec2 p = n.z >= 0.0 ? n.xy : folded;
+    ivec2 q = ivec2(floor(clamp(p, -1.0, 1.0) * 32767.0 + 0.5));
+    return uint(q.x & 0xffff) | uint(q.y) << 16;
+}
+
+vec3 unpackNormal(uint bits) {
+    vec2 p = max(vec2(int(bits << 16) >> 16, int(bits) >> 16) * (1.0 / 32767.0), -1.0);
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float fold = max(-n.z, 0.0);
+    n.x += n.x >= 0.0 ? -fold : fold;
+    n.y += n.y >= 0.0 ? -fold : fold;
+    return n * inversesqrt(dot(n, n));
+}
+
+uint packTangent(vec4 tangent) {
+    uint bits = (packNormal(tangent.xyz) & ~1u) | (tangent.w < 0.0 ? 1u : 0u);
+    return bits == TANGENT_NONE ? 0x00010000u : bits;
+}
+
+/// xyz: tangent, w: sign of the bitangent cross(normal, tangent).
+vec4 unpackTangent(uint bits) { return vec4(unpackNormal(bits & ~1u), (bits & 1u) != 0u ? -1.0 : 1.0); }
+
+vec4 unpackColor(uint bits) { return vec4(uvec4(bits, bits >> 8, bits >> 16, bits >> 24) & 255u) * (1.0 / 255.0); }

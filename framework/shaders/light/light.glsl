@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Next-event estimation: choosing a light, a point of it, and the densities that multiple importance sampling needs.
+// Units and falloffs of lights without extent: KHR_lights_punctual.
+#include "base/random.glsl"
+#include "base/sampling.glsl"
+#include "light/emission.glsl"
+#include "light/environment.glsl"
+#include "world/surface.glsl"
+
+/// A point of a light, found without knowing who looks: it can be stored and seen from elsewhere.
+struct LightPoint {
+    uint light;  // index in World.lights, NONE: the scene has no light
+    vec2 uv;     // triangle: barycentrics, environment: map coordinates, else unused
+};
+
+struct LightSample {
+    LightPoint point;
+    vec3 direction;        // towards the light, unit
+    float distance;        // FAR for the environment and directional lights
+    vec3 radianceOverPdf;  // to be multiplied by f |cos|; 0 where the light is dark
+    float pdf;             // per steradian, the light's choice included; 0 for lights without extent
+    float cosine;          // at the light: its area density is pdf * cosine / distance^2; 1 where it has no surface
+    bool delta;            // no BSDF sample can find it
+};
+
+/// Picks a light by the alias table and a point of it. choice = randomBits3(.., RANDOM_LIGHT_CHOICE), u = random3(.., RANDOM_LIGHT_POINT).
+LightPoint chooseLight(World w, uvec3 choice, vec3 u) {
+    if (w.lightCount == 0u) return LightPoint(NONE, vec2(0.0));
+    uint light = scaledIndex(choice.x, w.lightCount);
+    if (unitFloat(choice.y) >= w.lights.at[light].aliasProbability) light = w.lights.at[light].alias;
+    vec2 uv = uniformTriangle(u.yz);
+    if (light == w.environmentLight) uv = sampleEnvironmentUv(w, choice.z, u.x, u.yz);
+    return LightPoint(light, uv);
+}
+
+/// Inverse square, a smooth end at the light's range, and a spot's cone.
+float punctualFalloff(World w, uint light, vec3 direction, float distanceSquared) {
+    float falloff = 1.0 / max(distanceSquared, 1e-20), range = w.lights.at[light].range;
+    if (range > 0.0) falloff *= clamp(1.0 - square(distanceSquared / square(range)), 0.0, 1.0);
+    if (w.lights.at[light].type == LIGHT_SPOT) {
+        float inner = w.lights.at[light].cosInner, outer = w.lights.at[light].cosOuter;
+        float cosine = -dot(direction, w.lights.at[light].direction);
+        falloff *= square(clamp((cosine - outer) / max(inner - outer, 0.001), 0.0, 1.0));
+    }
+    return falloff;
+}
+
+void lightTriangle(World w, vec3 position, inout LightSample s) {
+    uint instance = w.lights.at[s.point.light].instance, primitive = w.lights.at[s.point.light].primitive;
+    uvec3 corners = cornersOf(w, primitive);
+    uint material = w.primitives.at[primitive].material;
+    Placement placement = placementOf(w, instance);
+    TrianglePoint point = pointOn(w, corners, s.point.uv);
+    vec3 twiceArea = placeNormal(placement, cross(point.edge1, point.edge2)) * placementSign(placement);
+    vec3 way = placePoint(placement, point.position) - position;
+    float distanceSquared = dot(way, way), area = 0.5 * length(twiceArea);
+    s.distance = sqrt(distanceSquared);
+    if (!(area > 0.0 && s.distance > 0.0)) return;
+    s.direction = way / s.distance;
+    float facing = -dot(twiceArea, s.direction) / (2.0 * area);
+    s.cosine = abs(facing);
+    if (s.cosine <= 1e-6 || !emitsTo(w, material, facing > 0.0)) return;
+    s.pdf = w.lights.at[s.point.light].pmf * distanceSquared / (area * s.cosine);
+    s.radianceOverPdf = emissionOn(w, material, corners, s.point.uv) / s.pdf;
+}
+
+/// How the stored light point looks from `position`. Deterministic; visibility is the caller's.
+LightSample lightSampleAt(World w, LightPoint point, vec3 position) {
+    LightSample s = LightSample(point, vec3(0.0, 1.0, 0.0), FAR, vec3(0.0), 0.0, 1.0, false);
+    if (point.light == NONE) return s;
+    uint type = w.lights.at[point.light].type;
+    if (type == LIGHT_TRIANGLE) {
+        lightTriangle(w, position, s);
+        return s;
+    }
+    float pmf = w.lights.at[point.light].pmf;
+    if (type == LIGHT_ENVIRONMENT) {
+        s.direction = environmentDirection(w, point.uv);
+        s.pdf = pmf * environmentDensity(w, point.uv);
+        if (s.pdf > 0.0) s.radianceOverPdf = environmentTexels(w, point.uv) / s.pdf;
+        return s;
+    }
+    s.delta = true;
+    vec3 intensity = w.lights.at[point.light].intensity / max(pmf, 1e-30);
+    if (type == LIGHT_DIRECTIONAL) {
+        s.direction = -w.lights.at[point.light].direction;
+        s.radianceOverPdf = intensity;
+        return s;
+    }
+    vec3 way = w.lights.at[point.light].position - position;
+    s.distance = length(way);
+    s.direction = safeNormalize(way, vec3(0.0, 1.0, 0.0));
+    s.radianceOverPdf = intensity * punctualFalloff(w, point.light, s.direction, dot(way, way));
+    return s;
+}
+
+LightSample sampleLight(World w, vec3 position, uvec3 choice, vec3 u) { return lightSampleAt(w, chooseLight(w, choice, u), position); }
+
+/// Density with which light sampling finds the point that a ray of unit direction hit after `distance`, per steradian, the light's choice
+/// included; 0 where the triangle is no light.
+float lightPdf(World w, uint instance, uint primitive, vec3 direction, float distance) {
+    uint emitter = w.emitters.at[primitive], first = w.instances.at[instance].firstLight;
+    if (emitter == NONE || first == NONE) return 0.0;
+    TrianglePoint point = pointOn(w, cornersOf(w, primitive), vec2(0.0));
+    vec3 twiceArea = placeNormal(placementOf(w, instance), cross(point.edge1, point.edge2));
+    float projected = 0.5 * abs(dot(twiceArea, direction));
+    return projected > 0.0 ? w.lights.at[first + emitter].pmf * square(distance) / projected : 0.0;
+}
+
+/// The ray that decides whether s sees the light sample.
+Ray shadowRay(World w, Surface s, LightSample l) {
+    if (l.distance >= FAR) return spawnRay(w, s, l.direction);
+    return rayBetween(w, s, s.position + l.distance * l.direction);
+}
+
+/// Balance heuristic (Veach and Guibas 1995): the weight of a sample found with density pdfA that another technique finds with pdfB.
+/// It is the partition of unity that reservoirs of paths are built on. Good for 0 and for infinite pdfA.
+float misWeight(float pdfA, float pdfB) { return pdfA > 0.0 ? 1.0 / (1.0 + pdfB / pdfA) : 0.0; }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A ray and what it hits, shared by C++ and GLSL.
+#ifndef LODESTIR_RAY_H
+#define LODESTIR_RAY_H
+#include "../base/shared.h"
+
+LODESTIR_SHARED_BEGIN
+
+struct Ray {
+    vec3 origin;
+    float tMin;
+    vec3 direction;  // need not be unit: t counts in its length
+    float tMax;      // < 0: no ray (a lane that only keeps its subgroup company)
+};
+
+struct Hit {
+    float t;
+    vec2 barycentrics;  // weights of the second and third vertex
+    uint primitive;     // World.primitives index, NONE: nothing hit
+    uint instance;
+};
+
+LODESTIR_SHARED_END
+LODESTIR_SHARED(Ray, "trace/ray.h")
+LODESTIR_SHARED(Hit, "trace/ray.h")
+#endif

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// A thin-lens camera: film to ray and back.
+#include "base/math.glsl"
+#include "base/sampling.glsl"
+#include "trace/ray.h"
+#include "world/world.h"
+
+/// The point of the lens, relative to its centre. lens in [0,1]^2; uniform over the disk.
+vec3 lensOffset(World w, vec2 lens) {
+    if (w.camera.aperture <= 0.0) return vec3(0.0);
+    vec2 p = w.camera.aperture * uniformDisk(lens);
+    return p.x * normalize(w.camera.right) + p.y * normalize(w.camera.up);
+}
+
+/// film in [0,1]^2, x to the right and y down. All rays of one film point meet in the plane of focus. Unit direction.
+Ray cameraRay(World w, vec2 film, vec2 lens) {
+    vec3 direction = w.camera.forward + (2.0 * film.x - 1.0) * w.camera.right + (1.0 - 2.0 * film.y) * w.camera.up;
+    vec3 offset = lensOffset(w, lens);
+    return Ray(w.camera.position + offset, 0.0, normalize(direction - offset / w.camera.focus), FAR);
+}
+
+/// Inverse of cameraRay: xy is the film point whose ray through the same lens point passes through `point`, z the depth along the
+/// camera's forward direction (<= 0: not in front, xy are outside the film).
+vec3 cameraProject(World w, vec3 point, vec2 lens) {
+    vec3 offset = lensOffset(w, lens);
+    vec3 d = point - w.camera.position - offset;
+    float depth = dot(d, w.camera.forward);
+    if (!(depth > 0.0)) return vec3(-1.0, -1.0, depth);
+    vec3 onPlane = d / depth + offset / w.camera.focus;
+    vec2 image = vec2(dot(onPlane, w.camera.right) / dot(w.camera.right, w.camera.right),
+                      dot(onPlane, w.camera.up) / dot(w.camera.up, w.camera.up));
+    return vec3(0.5 + 0.5 * image.x, 0.5 - 0.5 * image.y, depth);
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// The surface that a ray has hit: where it is, which way it faces, and rays that leave it.
+#include "base/math.glsl"
+#include "base/pack.glsl"
+#include "texture/material_map.glsl"
+#include "trace/ray.h"
+#include "world/triangle.glsl"
+#include "world/world.h"
+
+struct Surface {
+    vec3 position;       // interpolated from the corners: origin + t * direction would carry the ray's length into the error
+    vec3 normal;         // of the triangle, unit, towards the viewer
+    vec3 shadingNormal;  // unit, towards the viewer; its mirror direction lies above the triangle
+    vec2 uv;             // set 0
+    vec2 barycentrics;
+    uint primitive, instance, material;
+    bool frontFace;      // the viewer sees the triangle's front
+};
+
+/// Bends the shading normal n just so far that the mirror direction of `view` is not below the surface with normal ng
+/// (Keller et al. 2017, The Iray Light Transport Simulation and Rendering System, appendix A.3: the mirror direction is
+/// raised along n to the horizon, and the normal set halfway between it and the view). All unit; dot(ng, view) >= 0.
+vec3 bendNormal(vec3 n, vec3 ng, vec3 view) {
+    vec3 mirrored = 2.0 * dot(n, view) * n - view;
+    float below = dot(ng, mirrored);
+    if (below >= 0.0) return n;
+    vec3 raised = mirrored - n * (below / max(0.001, dot(n, ng)));
+    return safeNormalize(view + safeNormalize(raised, ng), ng);
+}
+
+/// The normal that the material's normal map gives, in world space (glTF 2.0, section 3.9.3); n where the mesh has no tangents.
+vec3 mapNormal(World w, Surface s, Placement placement, float mirror, uvec3 corners, vec3 n) {
+    uint bits[3] = uint[](w.vertices.at[corners.x].tangent, w.vertices.at[corners.y].tangent, w.vertices.at[corners.z].tangent);
+    if (bits[0] == TANGENT_NONE) return n;
+    vec3 weights = vec3(1.0 - s.barycentrics.x - s.barycentrics.y, s.barycentrics), tangent = vec3(0.0);
+    for (int i = 0; i < 3; ++i) tangent += weights[i] * unpackTangent(bits[i]).xyz;
+    tangent = placeVector(placement, tangent);
+    tangent = safeNormalize(tangent - dot(tangent, n) * n, basisAround(n)[0]);
+    vec3 bitangent = cross(n, tangent) * (unpackTangent(bits[0]).w * mirror);
+    vec3 m = readMap(w, w.materials.at[s.material].normalMap, s.uv, corners, s.barycentrics).xyz * 2.0 - 1.0;
+    m.xy *= w.materials.at[s.material].normalScale;
+    return safeNormalize(m.x * tangent + m.y * bitangent + m.z * n, n);
+}
+
+/// `w` is the World the ray was traced in; rayDirection may have any length.
+Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
+    uvec3 corners = cornersOf(w, hit.primitive);
+    Placement placement = placementOf(w, hit.instance);
+    TrianglePoint point = pointOn(w, corners, hit.barycentrics);
+    vec3 view = -normalize(rayDirection);
+    float mirror = placementSign(placement);
+
+    Surface s;
+    s.position = placePoint(placement, point.position);
+    s.uv = uvOn(w, corners, hit.barycentrics, 0u);
+    s.barycentrics = hit.barycentrics;
+    s.primitive = hit.primitive;
+    s.instance = hit.instance;
+    s.material = w.primitives.at[hit.primitive].material;
+
+    vec3 front = safeNormalize(placeNormal(placement, cross(point.edge1, point.edge2)) * mirror, view);
+    s.frontFace = dot(front, view) >= 0.0;
+    s.normal = s.frontFace ? front : -front;
+
+    vec3 weights = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics), smoothNormal = vec3(0.0);
+    for (int i = 0; i < 3; ++i) smoothNormal += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
+    vec3 n = safeNormalize(placeNormal(placement, smoothNormal) * mirror, front);
+    // Files with normals that point inwards are common enough: only the normal's line is trusted, the side comes from the winding.
+    n = dot(n, front) < 0.0 ? -n : n;
+    if (w.materials.at[s.material].normalMap.texture != NONE) n = mapNormal(w, s, placement, mirror, corners, n);
+    s.shadingNormal = bendNormal(s.frontFace ? n : -n, s.normal, view);
+    return s;
+}
+
+/// How far positions and traversal may be off, world units. Both round to 2^-24 of the largest coordinate that enters (the point's, the
+/// instance's translation, the mesh's extent) in a handful of operations; the bound below is ten such roundings.
+float positionError(World w, vec3 position) {
+    return 6e-7 * (maxComponent(abs(position)) + maxComponent(abs(w.sceneCenter)) + w.sceneRadius);
+}
+
+/// Where a ray that leaves the surface towards `direction` starts: off the triangle by the error bound, to that side.
+vec3 spawnOrigin(World w, Surface s, vec3 direction) {
+    float offset = positionError(w, s.position);
+    return s.position + (dot(s.normal, direction) < 0.0 ? -offset : offset) * s.normal;
+}
+
+Ray spawnRay(World w, Surface s, vec3 direction) { return Ray(spawnOrigin(w, s, direction), 0.0, direction, FAR); }
+
+/// The segment from the surface to a point of another one, for occluded(). Its direction is not unit; it ends short of the target by four
+/// error bounds, at least 1e-5 of its length and at most half of it.
+Ray rayBetween(World w, Surface s, vec3 target) {
+    vec3 origin = spawnOrigin(w, s, target - s.position);
+    vec3 direction = target - origin;
+    float gap = 4.0 * positionError(w, target) * inversesqrt(max(dot(direction, direction), 1e-30));
+    return Ray(origin, 0.0, direction, 1.0 - clamp(gap, 1e-5, 0.5));
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Triangles as the World stores them: corners, attributes between corners, and the way from object to world space.
+#include "world/world.h"
+
+vec3 interpolate(vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
+    return a + barycentrics.x * (b - a) + barycentrics.y * (c - a);
+}
+
+uvec3 cornersOf(World w, uint primitive) {
+    return uvec3(w.primitives.at[primitive].v0, w.primitives.at[primitive].v1, w.primitives.at[primitive].v2);
+}
+
+/// A point of a triangle, in object space, with the triangle's edges.
+struct TrianglePoint {
+    vec3 position;
+    vec3 edge1, edge2;
+};
+
+TrianglePoint pointOn(World w, uvec3 corners, vec2 barycentrics) {
+    vec3 a = w.positions.at[corners.x];
+    vec3 edge1 = w.positions.at[corners.y] - a, edge2 = w.positions.at[corners.z] - a;
+    return TrianglePoint(a + barycentrics.x * edge1 + barycentrics.y * edge2, edge1, edge2);
+}
+
+/// Texture coordinates of set 0 or 1.
+vec2 uvOn(World w, uvec3 corners, vec2 barycentrics, uint set) {
+    vec2 uv[3];
+    for (int i = 0; i < 3; ++i) {
+        if (set == 0u) uv[i] = w.vertices.at[corners[i]].uv0;
+        else uv[i] = w.vertices.at[corners[i]].uv1;
+    }
+    return uv[0] + barycentrics.x * (uv[1] - uv[0]) + barycentrics.y * (uv[2] - uv[0]);
+}
+
+/// Linear part and translation of an instance's transform, by rows.
+struct Placement {
+    vec3 row0, row1, row2;
+    vec3 translation;
+};
+
+Placement placementOf(World w, uint instance) {
+    vec4 x = w.instances.at[instance].toWorld[0], y = w.instances.at[instance].toWorld[1], z = w.instances.at[instance].toWorld[2];
+    return Placement(x.xyz, y.xyz, z.xyz, vec3(x.w, y.w, z.w));
+}
+
+vec3 placeVector(Placement p, vec3 v) { return vec3(dot(p.row0, v), dot(p.row1, v), dot(p.row2, v)); }
+vec3 placePoint(Placement p, vec3 v) { return placeVector(p, v) + p.translation; }
+
+/// A normal (or a cross product of edges) taken to world space by the cofactor matrix, which is the inverse transpose times the
+/// determinant and needs no second matrix. cross(edge1, edge2) becomes the cross product of the transformed edges.
+vec3 placeNormal(Placement p, vec3 n) {
+    return vec3(dot(cross(p.row1, p.row2), n), dot(cross(p.row2, p.row0), n), dot(cross(p.row0, p.row1), n));
+}
+
+/// -1 where the transform mirrors. glTF then turns the winding round, so that front faces stay front faces.
+float placementSign(Placement p) { return dot(p.row0, cross(p.row1, p.row2)) < 0.0 ? -1.0 : 1.0; }
+
+/// World-space position of a point on a triangle of an instance. With last frame's World it is the previous position.
+vec3 positionOn(World w, uint instance, uint primitive, vec2 barycentrics) {
+    return placePoint(placementOf(w, instance), pointOn(w, cornersOf(w, primitive), barycentrics).position);
+}

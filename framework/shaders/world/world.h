@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+// World: everything of the scene a shader may ask, as device addresses. One struct, the same in C++ and GLSL (scalar layout).
+// GLSL code loads it once (`World w = world();`), hands it on, and reads arrays as `w.positions.at[i]`.
+#ifndef LODESTIR_WORLD_H
+#define LODESTIR_WORLD_H
+#include "../base/shared.h"
+
+LODESTIR_SHARED_BEGIN
+
+const uint NONE = 0xffffffffu;  // no such index
+const uint LEVELS = 8u;         // most levels of a mesh: stride of World.roots
+
+// Attributes of a vertex that traversal does not need. 28 bytes.
+struct VertexRecord {
+    uint normal;   // octahedral, snorm16 x 2
+    uint tangent;  // octahedral, snorm16 x 2 with bit 0 replaced by the sign (1: bitangent = -cross(n, t)); 0x00010000-like zero means none
+    vec2 uv0, uv1;
+    uint color;    // unorm8 x 4, linear
+};
+
+// A triangle for shading, in BVH order (Hit.primitive indexes it). Vertex indices are global.
+struct PrimitiveRecord {
+    uint v0, v1, v2;
+    uint material;
+};
+
+// Where an instance stands and what it shows. Rows of 3x4 matrices, point p maps to (dot(row0.xyz, p) + row0.w, ...).
+struct InstanceRecord {
+    vec4 toWorld[3];
+    vec4 toObject[3];
+    uint mesh;
+    uint firstLight;  // index of the light of its mesh's first emissive triangle, NONE when it has none
+    uint flags;       // INSTANCE_*
+    uint pad;
+};
+const uint INSTANCE_MIRRORED = 1u;  // the transform turns triangles inside out
+
+// The same instance as traversal reads it: world space to the mesh's 16-bit box grid. 64 bytes, loaded by 8 lanes.
+struct TraceInstance {
+    vec4 toGrid[3];
+    uint mesh;
+    uint pad0, pad1, pad2;
+};
+
+// How a material reads a texture: uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
+struct TextureSlotRecord {
+    uint texture;  // NONE: no texture
+    uint uvSet;
+    vec3 row0, row1;
+};
+
+struct MaterialRecord {
+    vec4 baseColor;
+    vec3 emission;
+    float metallic;
+    float roughness;
+    float normalScale;
+    float transmission;
+    float ior;
+    vec3 attenuation;   // absorption per unit length inside a solid, 1/scene unit
+    float alphaCutoff;
+    uint flags;         // MATERIAL_*
+    TextureSlotRecord baseColorMap, metallicRoughnessMap, normalMap, emissiveMap, transmissionMap;
+};
+const uint MATERIAL_DOUBLE_SIDED = 1u;
+const uint MATERIAL_MASK = 2u;
+const uint MATERIAL_BLEND = 4u;
+const uint MATERIAL_SOLID = 8u;     // refracts; otherwise transmission is thin-walled
+const uint MATERIAL_EMISSIVE = 16u;
+const uint MATERIAL_VERTEX_COLOR = 32u;
+
+struct TextureRecord {
+    uint64_t texels;      // RGBA8, mip levels one after the other, each (max(1, w >> l)) x (max(1, h >> l))
+    uint width, height;
+    uint mips;
+    uint flags;           // TEXTURE_*
+};
+const uint TEXTURE_SRGB = 1u;
+const uint TEXTURE_NEAREST = 2u;
+const uint TEXTURE_CLAMP_U = 4u;
+const uint TEXTURE_CLAMP_V = 8u;
+const uint TEXTURE_MIRROR_U = 16u;
+const uint TEXTURE_MIRROR_V = 32u;
+
+// A light: an emissive triangle, a light without extent, or the environment.
+struct LightRecord {
+    uint type;        // LIGHT_*
+    uint instance;    // triangle: of which instance
+    uint primitive;   // triangle: which PrimitiveRecord
+    float pmf;        // probability that this light is chosen
+    vec3 position;    // point, spot: world space
+    float cosOuter;   // spot
+    vec3 direction;   // spot, directional: the way the light shines, unit
+    float cosInner;   // spot
+    vec3 intensity;   // point, spot: W/sr; directional: irradiance; times colour
+    float aliasProbability;  // Vose's alias table: keep this light when u < aliasProbability, else take `alias`
+    uint alias;
+    float range;      // point, spot: distance of its end, 0: none
+};
+const uint LIGHT_TRIANGLE = 0u;
+const uint LIGHT_POINT = 1u;
+const uint LIGHT_SPOT = 2u;
+const uint LIGHT_DIRECTIONAL = 3u;
+const uint LIGHT_ENVIRONMENT = 4u;
+
+// One texel of the environment map: radiance and the density (per unit square of uv) with which the alias table picks it.
+struct EnvironmentTexel {
+    vec3 radiance;
+    float density;
+    float aliasProbability;
+    uint alias;
+};
+
+struct CameraRecord {
+    vec3 position;
+    float aperture;   // lens radius
+    vec3 right;       // unit vectors times the half extent of the image plane at distance 1
+    float focus;      // distance of the plane in focus
+    vec3 up;
+    float pixelAngle; // angle of one pixel at the image centre, radians
+    vec3 forward;     // unit
+    uint pad;
+};
+
+#ifdef __cplusplus
+}  // namespace lodestir
+#define LODESTIR_ARRAY(name, T)
+#define LODESTIR_ARRAY_OF(name) uint64_t
+namespace lodestir {
+#else
+#define LODESTIR_ARRAY(name, T) layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer name { T at[]; };
+#define LODESTIR_ARRAY_OF(name) name
+#endif
+
+LODESTIR_ARRAY(UintArray, uint)
+LODESTIR_ARRAY(Vec3Array, vec3)
+LODESTIR_ARRAY(VertexArray, VertexRecord)
+LODESTIR_ARRAY(PrimitiveArray, PrimitiveRecord)
+LODESTIR_ARRAY(InstanceArray, InstanceRecord)
+LODESTIR_ARRAY(MaterialArray, MaterialRecord)
+LODESTIR_ARRAY(TextureArray, TextureRecord)
+LODESTIR_ARRAY(LightArray, LightRecord)
+LODESTIR_ARRAY(EnvironmentArray, EnvironmentTexel)
+
+struct World {
+    // Traversal (scene/bvh.h has the layouts).
+    uint64_t nodes;                                  // 64-byte nodes of all mesh levels, then of the top level
+    uint64_t triangles;                              // 48-byte triangles in grid space, BVH order; index = Hit.primitive
+    uint64_t traceInstances;                         // TraceInstance of each instance
+    LODESTIR_ARRAY_OF(UintArray) roots;              // node reference of mesh m at level l: roots[m * LEVELS + l]
+    LODESTIR_ARRAY_OF(UintArray) levels;             // level shown of each instance
+    uint64_t tlas;                                   // for ray queries; 0: none
+    vec3 gridBase;                                   // of the top level: world = base + scale * grid
+    uint topRoot;                                    // node reference
+    vec3 gridScale;
+    uint instanceCount;
+
+    // Geometry and materials.
+    LODESTIR_ARRAY_OF(InstanceArray) instances;
+    LODESTIR_ARRAY_OF(PrimitiveArray) primitives;
+    LODESTIR_ARRAY_OF(UintArray) emitters;           // of each primitive: its place among its mesh's emissive triangles, NONE: not emissive
+    LODESTIR_ARRAY_OF(Vec3Array) positions;          // object space
+    LODESTIR_ARRAY_OF(VertexArray) vertices;
+    LODESTIR_ARRAY_OF(MaterialArray) materials;
+    LODESTIR_ARRAY_OF(TextureArray) textures;
+
+    // Light.
+    LODESTIR_ARRAY_OF(LightArray) lights;
+    LODESTIR_ARRAY_OF(EnvironmentArray) environment; // environmentSize.x * environmentSize.y texels
+    uvec2 environmentSize;
+    float environmentRotation;                       // radians around +Y
+    uint environmentLight;                           // index in lights, NONE: black
+    uint lightCount;
+    float sceneRadius;                               // of the sphere around all instances
+    vec3 sceneCenter;
+
+    CameraRecord camera;
+};
+
+LODESTIR_SHARED_END
+LODESTIR_SHARED(World, "world/world.h")
+#endif

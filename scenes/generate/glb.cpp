@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Binary glTF writer: see glb.h. Section numbers are those of the glTF 2.0 specification.
+#include "glb.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace lodestir::generate {
+
+namespace {
+
+using nlohmann::json;
+
+// Values of section 5 (accessor.componentType, bufferView.target, sampler filters and wrap).
+constexpr int unsignedShort = 5123, unsignedInt = 5125, floating = 5126;
+constexpr int arrayBuffer = 34962, elementBuffer = 34963;
+constexpr int linear = 9729, linearMipmapLinear = 9987, repeat = 10497;
+
+/// Six decimals are finer than a float of this size; they keep the file short and the same everywhere.
+double tidy(float value) { return std::round(double(value) * 1e6) / 1e6; }
+
+template <int N>
+json array(const glm::vec<N, float>& v) {
+    json list = json::array();
+    for (int i = 0; i < N; ++i) list.push_back(tidy(v[i]));
+    return list;
+}
+
+void appendWord(std::vector<uint8_t>& bytes, uint32_t word) {
+    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(uint8_t(word >> shift));
+}
+
+}  // namespace
+
+glm::quat turnY(float degrees) { return glm::angleAxis(glm::radians(degrees), glm::vec3(0, 1, 0)); }
+
+void Model::add(int material, const Mesh& mesh) {
+    const auto part = std::find_if(parts.begin(), parts.end(), [&](const auto& p) { return p.first == material; });
+    append(part == parts.end() ? parts.emplace_back(material, Mesh{}).second : part->second, mesh);
+}
+
+void Glb::use(const std::string& extension) {
+    if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) extensions.push_back(extension);
+}
+
+int Glb::addView(const void* data, size_t bytes, int target) {
+    binary.resize((binary.size() + 3) & ~size_t(3));
+    json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes}};
+    if (target) view["target"] = target;
+    const auto* first = static_cast<const uint8_t*>(data);
+    binary.insert(binary.end(), first, first + bytes);
+    views.push_back(view);
+    return int(views.size()) - 1;
+}
+
+int Glb::addAccessor(const void* data, size_t count, int components, int componentType, int target) {
+    const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+    const size_t size = componentType == unsignedShort ? 2 : 4;
+    const int view = addView(data, count * size * size_t(components), target);
+    accessors.push_back({{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", types[components]}});
+    return int(accessors.size()) - 1;
+}
+
+int Glb::addPicture(const std::string& name, const Picture& picture) {
+    const std::vector<uint8_t> file = encodePng(picture);
+    const int view = addView(file.data(), file.size(), 0);
+    pictures.push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
+    textures.push_back({{"source", int(pictures.size()) - 1}, {"sampler", 0}});
+    return int(textures.size()) - 1;
+}
+
+int Glb::addMaterial(Material material, const Textures& painted) {
+    material.colorPicture = addPicture(material.name + "_color", painted.color);
+    if (!painted.normal.empty()) material.normalPicture = addPicture(material.name + "_normal", painted.normal);
+    if (!painted.roughness.empty()) {
+        material.roughnessPicture = addPicture(material.name + "_roughness", painted.roughness);
+        material.roughness = material.metalness = 1;  // the factors multiply the picture
+    }
+    return addMaterial(material);
+}
+
+int Glb::addMaterial(const Material& m) {
+    json surface = {{"baseColorFactor", array(glm::vec4(m.color, 1))}, {"metallicFactor", tidy(m.metalness)}, {"roughnessFactor", tidy(m.roughness)}};
+    if (m.colorPicture != Material::none) surface["baseColorTexture"] = {{"index", m.colorPicture}};
+    if (m.roughnessPicture != Material::none) surface["metallicRoughnessTexture"] = {{"index", m.roughnessPicture}};
+
+    json material = {{"name", m.name}, {"pbrMetallicRoughness", surface}};
+    if (m.normalPicture != Material::none) material["normalTexture"] = {{"index", m.normalPicture}, {"scale", tidy(m.normalScale)}};
+    if (m.mask) material["alphaMode"] = "MASK", material["alphaCutoff"] = 0.5;
+    if (m.doubleSided) material["doubleSided"] = true;
+
+    json extended = json::object();
+    const float strength = std::max({m.emission.r, m.emission.g, m.emission.b});
+    if (strength > 0) {
+        // emissiveFactor is limited to [0, 1]; the extension carries the rest.
+        material["emissiveFactor"] = array(m.emission / std::max(strength, 1.0f));
+        if (strength > 1) extended["KHR_materials_emissive_strength"] = {{"emissiveStrength", tidy(strength)}};
+    }
+    if (m.ior != 1.5f) extended["KHR_materials_ior"] = {{"ior", tidy(m.ior)}};
+    if (m.transmission > 0) extended["KHR_materials_transmission"] = {{"transmissionFactor", tidy(m.transmission)}};
+    if (m.thickness > 0) {
+        extended["KHR_materials_volume"] = {{"thicknessFactor", tidy(m.thickness)}, {"attenuationColor", array(m.attenuation)}};
+        if (std::isfinite(m.attenuationDistance)) extended["KHR_materials_volume"]["attenuationDistance"] = tidy(m.attenuationDistance);
+    }
+    for (const auto& [name, value] : extended.items()) use(name);
+    if (!extended.empty()) material["extensions"] = extended;
+    materials.push_back(material);
+    return int(materials.size()) - 1;
+}
+
+int Glb::addGeometry(const Mesh& mesh) {
+    const size_t count = mesh.vertices.size();
+    const auto gather = [&](int components, auto member) {
+        std::vector<float> values;
+        values.reserve(count * size_t(components));
+        for (const Vertex& v : mesh.vertices)
+            for (int k = 0; k < components; ++k) values.push_back((v.*member)[k]);
+        return addAccessor(values.data(), count, components, floating, arrayBuffer);
+    };
+
+    json attributes;
+    attributes["POSITION"] = gather(3, &Vertex::position);
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const Vertex& v : mesh.vertices) low = glm::min(low, v.position), high = glm::max(high, v.position);
+    // Bounds must equal the stored floats (3.6.2.5), so they aren't rounded.
+    accessors.back()["min"] = {low.x, low.y, low.z};
+    accessors.back()["max"] = {high.x, high.y, high.z};
+    attributes["NORMAL"] = gather(3, &Vertex::normal);
+    attributes["TEXCOORD_0"] = gather(2, &Vertex::uv);
+    if (mesh.hasTangents) attributes["TANGENT"] = gather(4, &Vertex::tangent);
+    if (mesh.hasColors) attributes["COLOR_0"] = gather(3, &Vertex::color);
+
+    int indices = 0;
+    if (count < 65535) {
+        const std::vector<uint16_t> narrow(mesh.indices.begin(), mesh.indices.end());
+        indices = addAccessor(narrow.data(), narrow.size(), 1, unsignedShort, elementBuffer);
+    } else {
+        indices = addAccessor(mesh.indices.data(), mesh.indices.size(), 1, unsignedInt, elementBuffer);
+    }
+    geometries.push_back({{"attributes", attributes}, {"indices", indices}});
+    return int(geometries.size()) - 1;
+}
+
+int Glb::addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial) {
+    json primitives = json::array();
+    for (const auto& [geometry, material] : geometryAndMaterial) {
+        json primitive = geometries.at(size_t(geometry));
+        primitive["material"] = material;
+        if (materials.at(size_t(material)).contains("normalTexture") && !primitive["attributes"].contains("TANGENT"))
+            throw std::logic_error("mesh '" + name + "': a normal-mapped part has no tangents");
+        primitives.push_back(primitive);
+    }
+    meshes.push_back({{"name", name}, {"primitives", primitives}});
+    return int(meshes.size()) - 1;
+}
+
+int Glb::addMesh(const Model& model) {
+    std::vector<std::pair<int, int>> parts;
+    for (const auto& [material, part] : model.parts) {
+        Mesh mesh = part;
+        if (materials.at(size_t(material)).contains("normalTexture") && !mesh.hasTangents) computeTangents(mesh);
+        parts.emplace_back(addGeometry(mesh), material);
+    }
+    return addMesh(model.name, parts);
+}
+
+void Glb::addNode(const std::string& name, int mesh, const Placement& placement) {
+    json node = {{"name", name}, {"mesh", mesh}};
+    if (placement.translation != glm::vec3(0)) node["translation"] = array(placement.translation);
+    const glm::quat& q = placement.rotation;
+    if (q != glm::quat(1, 0, 0, 0)) node["rotation"] = array(glm::vec4(q.x, q.y, q.z, q.w));
+    if (placement.scale != glm::vec3(1)) node["scale"] = array(placement.scale);
+    nodes.push_back(node);
+}
+
+void Glb::addNode(const Model& model, const Placement& placement) { addNode(model.name, addMesh(model), placement); }
+
+void Glb::write(const std::filesystem::path& path) const {
+    json roots = json::array();
+    for (size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+
+    json root;
+    root["asset"] = {{"version", "2.0"}, {"generator", "lodestir generate_scenes"}};
+    root["scene"] = 0;
+    root["scenes"] = json::array({{{"nodes", roots}}});
+    root["nodes"] = nodes;
+    root["meshes"] = meshes;
+    root["materials"] = materials;
+    root["accessors"] = accessors;
+    root["bufferViews"] = views;
+    root["buffers"] = json::array({{{"byteLength", binary.size()}}});
+    if (!pictures.empty()) {
+        root["images"] = pictures;
+        root["textures"] = textures;
+        root["samplers"] = json::array({{{"magFilter", linear}, {"minFilter", linearMipmapLinear}, {"wrapS", repeat}, {"wrapT", repeat}}});
+    }
+    if (!extensions.empty()) root["extensionsUsed"] = extensions;
+
+    // Section 4.4: twelve bytes of header, then a JSON chunk padded with spaces and a binary chunk padded with zeros.
+    std::string text = root.dump();
+    text.resize((text.size() + 3) & ~size_t(3), ' ');
+    std::vector<uint8_t> body = binary;
+    body.resize((body.size() + 3) & ~size_t(3), 0);
+
+    std::vector<uint8_t> file;
+    file.reserve(28 + text.size() + body.size());
+    appendWord(file, 0x46546C67);  // "glTF"
+    appendWord(file, 2);
+    appendWord(file, uint32_t(28 + text.size() + body.size()));
+    appendWord(file, uint32_t(text.size()));
+    appendWord(file, 0x4E4F534A);  // "JSON"
+    file.insert(file.end(), text.begin(), text.end());
+    appendWord(file, uint32_t(body.size()));
+    appendWord(file, 0x004E4942);  // "BIN"
+    file.insert(file.end(), body.begin(), body.end());
+
+    std::filesystem::path aside = path;
+    aside += ".part";
+    {
+        std::ofstream out(aside, std::ios::binary);
+        out.write(reinterpret_cast<const char*>(file.data()), std::streamsize(file.size()));
+        if (!out.flush()) throw std::runtime_error("cannot write " + aside.string());
+    }
+    std::filesystem::rename(aside, path);
+}
+
+}  // namespace lodestir::generate

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Writes a binary glTF 2.0 file: geometries, materials with embedded PNG pictures, meshes and nodes that share them.
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
+
+#include "mesh.h"
+#include "picture.h"
+
+namespace lodestir::generate {
+
+/// A metallic-roughness material with the extensions path tracers read (emissive_strength, transmission, volume, ior).
+/// Texture members are indices from Glb::addPicture, or none.
+struct Material {
+    static constexpr int none = -1;
+
+    std::string name;
+    glm::vec3 color{1};
+    float roughness = 1;
+    float metalness = 0;
+    glm::vec3 emission{0};              ///< radiance, any size
+    float transmission = 0;
+    float ior = 1.5f;
+    float thickness = 0;                ///< metres; above 0 the mesh bounds a volume
+    glm::vec3 attenuation{1};           ///< what is left of white light after `attenuationDistance`
+    float attenuationDistance = std::numeric_limits<float>::infinity();
+    bool mask = false;                  ///< cut out where alpha is below one half
+    bool doubleSided = false;
+    int colorPicture = none;
+    int normalPicture = none;
+    int roughnessPicture = none;
+    float normalScale = 1;
+};
+
+/// Where a node stands.
+struct Placement {
+    glm::vec3 translation{0};
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 scale{1};
+};
+
+/// A rotation about +y, degrees, counter-clockwise seen from above.
+glm::quat turnY(float degrees);
+
+/// A named thing made of parts, each with its own material.
+struct Model {
+    std::string name;
+    std::vector<std::pair<int, Mesh>> parts;
+
+    /// Adds a mesh to the part that has this material.
+    void add(int material, const Mesh& mesh);
+};
+
+class Glb {
+public:
+    int addPicture(const std::string& name, const Picture& picture);
+
+    /// A material whose pictures are the painted ones; factors stay as given.
+    int addMaterial(Material material, const Textures& textures);
+    int addMaterial(const Material& material);
+
+    /// Vertex data that several meshes may share. Tangents are written where Mesh::hasTangents says so.
+    int addGeometry(const Mesh& mesh);
+    int addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial);
+
+    /// Computes tangents for the parts whose material has a normal picture, and adds the mesh.
+    int addMesh(const Model& model);
+    void addNode(const std::string& name, int mesh, const Placement& placement = {});
+
+    /// addMesh and addNode in one, for things that stand once.
+    void addNode(const Model& model, const Placement& placement = {});
+
+    /// Writes aside and renames, so that no half-written file is ever seen.
+    void write(const std::filesystem::path& path) const;
+
+private:
+    int addView(const void* data, size_t bytes, int target);
+    int addAccessor(const void* data, size_t count, int components, int componentType, int target);
+
+    nlohmann::json pictures = nlohmann::json::array(), textures = nlohmann::json::array(), materials = nlohmann::json::array();
+    nlohmann::json views = nlohmann::json::array(), accessors = nlohmann::json::array();
+    nlohmann::json meshes = nlohmann::json::array(), nodes = nlohmann::json::array();
+    std::vector<nlohmann::json> geometries;   ///< primitives without their material
+    std::vector<std::string> extensions;
+    std::vector<uint8_t> binary;
+
+    void use(const std::string& extension);
+};
+
+}  // namespace lodestir::generate

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// The scenes that generate_scenes can make; each writes its .glb files into the given folder.
+#pragma once
+
+#include <filesystem>
+
+namespace lodestir::generate {
+
+void writeCornell(const std::filesystem::path& folder);
+void writeMaterialSpheres(const std::filesystem::path& folder);
+void writeInterior(const std::filesystem::path& folder);
+void writeRock(const std::filesystem::path& folder);
+
+}  // namespace lodestir::generate

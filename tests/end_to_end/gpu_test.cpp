@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// The GPU layer on a real device: memory there and back, addresses, specialization, 64-bit atomics, timestamps, errors.
+#include <framework/core/error.h>
+#include <framework/gpu/commands.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <numeric>
+#include <optional>
+
+namespace lodestir::gpu {
+namespace {
+
+class GpuTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        if (std::ranges::none_of(listDevices(), &DeviceFacts::usable)) GTEST_SKIP() << "no usable Vulkan device";
+        DeviceOptions options;
+        options.validation = true;
+        device_.emplace(options);
+        folder_ = std::filesystem::temp_directory_path() / "lodestir_gpu_test";
+    }
+    void TearDown() override {
+        if (!device_) return;
+        EXPECT_EQ(device_->validationMessages(), std::vector<std::string>{});
+        std::filesystem::remove_all(folder_);
+    }
+    Spirv compile(const std::string& text) {
+        writeFile(folder_ / "test.comp", text);
+        return compileShader({folder_ / "test.comp", {}, {}, {}});
+    }
+
+    std::optional<Device> device_;
+    Path folder_;
+};
+
+struct Push {
+    std::uint64_t out;
+    std::uint32_t count;
+};
+constexpr std::size_t pushBytes = 12;
+std::span<const std::byte> bytesOf(const Push& push) { return std::as_bytes(std::span(&push, 1)).first(pushBytes); }
+
+const char* const sums = R"(#version 460
+layout(local_size_x = 64) in;
+layout(buffer_reference, scalar) buffer Out { uint64_t sum, least; uint words[]; };
+layout(push_constant, scalar) uniform Push { Out result; uint count; } push;
+layout(constant_id = 3) const uint FACTOR = 1;
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= push.count) return;
+    push.result.words[i] = i * FACTOR;
+    atomicAdd(push.result.sum, uint64_t(i) << 20);
+    atomicMin(push.result.least, (uint64_t(~i) << 32) | i);
+}
+)";
+
+TEST_F(GpuTest, ShadersReachMemoryByAddress) {
+    constexpr std::uint32_t count = 100'000;
+    const Specialization factor{3, 7};
+    const Pipeline pipeline(*device_, compile(sums), std::span(&factor, 1), pushBytes, "sums");
+    const Buffer out(*device_, 16 + 4 * count, Memory::device, "out");
+    EXPECT_EQ(out.address() % 256, 0u);
+    Commands commands(*device_);
+    const auto start = std::chrono::steady_clock::now();
+    commands.begin();
+    commands.fill(out, 0, 8, 0);
+    commands.fill(out, 8, 8, ~0u);
+    commands.barrier();
+    const std::uint32_t before = commands.timestamp();
+    commands.beginLabel("sums");
+    commands.dispatch(pipeline, bytesOf({out.address(), count}), (count + 63) / 64);
+    commands.endLabel();
+    const std::uint32_t after = commands.timestamp();
+    commands.submit();
+    commands.wait();
+    const double wall = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+    std::vector<std::uint32_t> words(4 + count);
+    readBuffer(*device_, out, 0, std::as_writable_bytes(std::span(words)));
+    for (std::uint32_t i = 0; i < count; ++i) ASSERT_EQ(words[4 + i], i * 7);
+    std::uint64_t sum = 0, least = 0;
+    std::memcpy(&sum, &words[0], 8);
+    std::memcpy(&least, &words[2], 8);
+    EXPECT_EQ(sum, std::uint64_t{count} * (count - 1) / 2 << 20);
+    EXPECT_EQ(least, std::uint64_t{~(count - 1)} << 32 | (count - 1));
+    if (device_->facts().timestampBits == 0) return;
+    EXPECT_GT(commands.milliseconds(before, after), 0);
+    EXPECT_LE(commands.milliseconds(before, after), wall);
+}
+
+TEST_F(GpuTest, MemoryGoesThereAndBack) {
+    std::vector<std::uint32_t> values(1'000'003);
+    std::iota(values.begin(), values.end(), 5u);
+    // The second time as on a GPU with memory of its own, through staging copies.
+    for (const bool staged : {false, true}) {
+        if (staged) const_cast<DeviceFacts&>(device_->facts()).unifiedMemory = false;
+        const Buffer buffer = makeBuffer<std::uint32_t>(*device_, values, "values");
+        EXPECT_EQ(buffer.mapped() == nullptr, staged || !device_->facts().unifiedMemory);
+        EXPECT_GE(buffer.size(), values.size() * 4);
+        std::vector<std::uint32_t> back(1000);
+        readBuffer(*device_, buffer, 4 * 123'456, std::as_writable_bytes(std::span(back)));
+        EXPECT_TRUE(std::equal(back.begin(), back.end(), values.begin() + 123'456));
+
+        const Buffer copy(*device_, values.size() * 4, Memory::readback, "copy");
+        runOnce(*device_, [&](Commands& commands) {
+            commands.copy(buffer, 0, copy, 0, values.size() * 4);
+            commands.barrier();
+            commands.fill(copy, 8, 4, 99);
+        });
+        ASSERT_NE(copy.mapped(), nullptr);
+        std::memcpy(back.data(), copy.mapped(), back.size() * 4);
+        EXPECT_EQ(back[1], values[1]);
+        EXPECT_EQ(back[2], 99u);
+        EXPECT_EQ(back[3], values[3]);
+    }
+}
+
+TEST_F(GpuTest, CommandsCanBeUsedAgain) {
+    const Pipeline pipeline(*device_, compile(sums), {}, pushBytes, "sums");
+    const Buffer out(*device_, 16 + 4 * 64, Memory::device, "out");
+    Commands commands(*device_, 2);
+    for (int round = 0; round < 3; ++round) {  // no wait: begin() waits
+        commands.begin();
+        commands.timestamp();
+        commands.dispatch(pipeline, bytesOf({out.address(), 0}), 1);
+        commands.dispatch(pipeline, bytesOf({out.address(), 0}), 0);  // nothing
+        commands.timestamp();
+        commands.submit();
+    }
+}
+
+TEST_F(GpuTest, WrongUseIsToldInWords) {
+    const auto errorOf = [](auto&& action) -> std::string {
+        try {
+            action();
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "no error";
+    };
+    EXPECT_NE(errorOf([&] { Buffer(*device_, std::size_t{1} << 60, Memory::device, "huge"); }).find("buffer \"huge\" needs"), std::string::npos);
+    const Pipeline pipeline(*device_, compile(sums), {}, pushBytes, "sums");
+    Commands commands(*device_, 1);
+    commands.begin();
+    EXPECT_NE(errorOf([&] { commands.dispatch(pipeline, bytesOf({0, 0}), 1, 0xffffffffu); }).find("workgroups; the device allows"), std::string::npos);
+    EXPECT_NE(errorOf([&] { Pipeline(*device_, compile(sums), {}, 1u << 20, "greedy"); }).find("greedy"), std::string::npos);
+    const Buffer small(*device_, 4, Memory::device, "small");
+    std::byte out[512];
+    EXPECT_NE(errorOf([&] { readBuffer(*device_, small, 0, out); }).find("512"), std::string::npos);
+    commands.submit();
+}
+
+}  // namespace
+}  // namespace lodestir::gpu
