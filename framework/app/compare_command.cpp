@@ -94,7 +94,8 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
             return isKnown ? std::string() : "unknown metric \"" + name + "\"; " + didYouMean(name, names);
         });
     command->add_flag("--json", arguments->json, "print one JSON object");
-    command->add_option("--exposure", arguments->exposure, "factor on both images for metrics with an epsilon (median luminance becomes 0.18)")
+    command
+        ->add_option("--exposure", arguments->exposure, "factor on both images for metrics with an epsilon (median luminance becomes 0.18)")
         ->check(CLI::PositiveNumber);
     command->add_option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)");
     command->add_option("--map-top", arguments->mapTop, "error shown brightest in a .png map (99 % of the pixels are below)")

@@ -6,6 +6,8 @@
 #include <framework/graph/struct_layout.h>
 #include <framework/image/exr.h>
 
+#include <array>
+
 namespace lodestir {
 
 void dumpPort(Session& session, const Source& source, const Path& path) {
@@ -17,8 +19,8 @@ void dumpPort(Session& session, const Source& source, const Path& path) {
     }
     const Plugin& plugin = *graph.nodes[std::size_t(source.node)].plugin;
     const std::vector<std::byte> bytes = session.runner().readBytes(source);
-    const std::size_t count = bytes.size() / port.type.size;
-    writeNpy(path.string() + ".npy", bytes, structFields(port.type.name, Path(port.type.header), includeFolders(plugin), port.type.size), {count});
+    const std::array<std::size_t, 1> shape{bytes.size() / port.type.size};
+    writeNpy(path.string() + ".npy", bytes, structFields(port.type.name, Path(port.type.header), includeFolders(plugin), port.type.size), shape);
 }
 
 }  // namespace lodestir

@@ -40,11 +40,11 @@ public:
     double sceneMilliseconds() const { return sceneMilliseconds_; }  ///< to read the scene
 
 private:
+    std::unique_ptr<gpu::Device> device_;  // first, because passes may hold its memory
     PluginLibraries libraries_;
     std::unique_ptr<Graph> graph_;
     std::vector<Source> dumps_;
     Scene scene_;
-    std::unique_ptr<gpu::Device> device_;
     RayBody rays_ = RayBody::lane;
     std::unique_ptr<Runner> runner_;
     double sceneMilliseconds_ = 0;

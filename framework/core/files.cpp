@@ -98,8 +98,8 @@ void makeFolder(const Path& folder) {
 /// Takes a name beside the target that no other process or thread has. The name starts with a dot, so that listings and globs pass over it.
 Path reserveAside(const Path& target) {
     for (int attempt = 0;; ++attempt) {
-        Path aside = target.parent_path() / ("." + target.stem().string() + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) +
-                                             target.extension().string());
+        Path aside = target.parent_path() / ("." + target.stem().string() + "." + std::to_string(::getpid()) + "-" +
+                                             std::to_string(attempt) + target.extension().string());
         File file(aside, O_WRONLY | O_CREAT | O_EXCL);
         if (file.isOpen()) return aside;
         if (errno != EEXIST) throw Error(Where{target.string()}, "cannot be written: " + std::generic_category().message(errno));
@@ -114,7 +114,8 @@ std::vector<std::byte> readBytes(const Path& path) { return readWhole<std::vecto
 
 void writeAside(const Path& path, const std::function<void(const Path& aside)>& write) {
     std::error_code none;
-    const Path target = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;  // what the link means is replaced, not the link
+    const Path target =
+        fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;  // what the link means is replaced, not the link
     const fs::file_status status = fs::status(target, none);
     if (fs::is_directory(status)) throw Error(Where{path.string()}, "cannot be written: it is a folder");
     if (fs::exists(status) && !fs::is_regular_file(status)) {  // devices and pipes such as /dev/null must not be renamed over

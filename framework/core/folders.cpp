@@ -75,7 +75,8 @@ Path sceneFolder() {
 
 Path cacheFolder(std::string_view kind) {
     if (const Path chosen = environment("LODESTIR_CACHE"); !chosen.empty()) {
-        if (!canUse(chosen / kind)) throw Error(Where{(chosen / kind).string()}, "the cache folder cannot be written", "check LODESTIR_CACHE");
+        if (!canUse(chosen / kind))
+            throw Error(Where{(chosen / kind).string()}, "the cache folder cannot be written", "check LODESTIR_CACHE");
         return chosen / kind;
     }
     const Path xdg = environment("XDG_CACHE_HOME"), home = environment("HOME");

@@ -14,13 +14,13 @@ namespace {
 
 const char* nameOf(Json::Kind kind) {
     switch (kind) {
-        case Json::Kind::null: return "null";
-        case Json::Kind::boolean: return "a boolean";
-        case Json::Kind::integer: return "an integer";
-        case Json::Kind::number: return "a number";
-        case Json::Kind::string: return "a string";
-        case Json::Kind::array: return "an array";
-        case Json::Kind::object: return "an object";
+    case Json::Kind::null: return "null";
+    case Json::Kind::boolean: return "a boolean";
+    case Json::Kind::integer: return "an integer";
+    case Json::Kind::number: return "a number";
+    case Json::Kind::string: return "a string";
+    case Json::Kind::array: return "an array";
+    case Json::Kind::object: return "an object";
     }
     return "";
 }
@@ -97,51 +97,51 @@ void Json::moveTo(const Where& where) {
 Json Json::from(const nlohmann::ordered_json& value) {
     using Type = nlohmann::ordered_json::value_t;
     switch (value.type()) {
-        case Type::boolean: return Json(value.get<bool>());
-        case Type::number_integer: return Json(value.get<std::int64_t>());
-        case Type::number_unsigned: {
-            const auto number = value.get<std::uint64_t>();
-            if (number > std::uint64_t(std::numeric_limits<std::int64_t>::max())) {
-                throw Error("the integer " + std::to_string(number) + " does not fit into 64 bits with a sign");
-            }
-            return Json(std::int64_t(number));
+    case Type::boolean: return Json(value.get<bool>());
+    case Type::number_integer: return Json(value.get<std::int64_t>());
+    case Type::number_unsigned: {
+        const auto number = value.get<std::uint64_t>();
+        if (number > std::uint64_t(std::numeric_limits<std::int64_t>::max())) {
+            throw Error("the integer " + std::to_string(number) + " does not fit into 64 bits with a sign");
         }
-        case Type::number_float: return Json(value.get<double>());
-        case Type::string: return Json(value.get<std::string>());
-        case Type::array: {
-            Json result = array();
-            for (const auto& item : value) result.items_.push_back(from(item));
-            return result;
-        }
-        case Type::object: {
-            Json result = object();
-            for (const auto& member : value.items()) result.members_.emplace_back(member.key(), from(member.value()));
-            return result;
-        }
-        case Type::null:
-        case Type::binary:
-        case Type::discarded: break;
+        return Json(std::int64_t(number));
+    }
+    case Type::number_float: return Json(value.get<double>());
+    case Type::string: return Json(value.get<std::string>());
+    case Type::array: {
+        Json result = array();
+        for (const auto& item : value) result.items_.push_back(from(item));
+        return result;
+    }
+    case Type::object: {
+        Json result = object();
+        for (const auto& member : value.items()) result.members_.emplace_back(member.key(), from(member.value()));
+        return result;
+    }
+    case Type::null:
+    case Type::binary:
+    case Type::discarded: break;
     }
     return {};
 }
 
 nlohmann::ordered_json Json::plain() const {
     switch (kind_) {
-        case Kind::null: break;
-        case Kind::boolean: return boolean_;
-        case Kind::integer: return integer_;
-        case Kind::number: return number_;
-        case Kind::string: return string_;
-        case Kind::array: {
-            auto result = nlohmann::ordered_json::array();
-            for (const Json& item : items_) result.push_back(item.plain());
-            return result;
-        }
-        case Kind::object: {
-            auto result = nlohmann::ordered_json::object();
-            for (const auto& [key, value] : members_) result[key] = value.plain();
-            return result;
-        }
+    case Kind::null: break;
+    case Kind::boolean: return boolean_;
+    case Kind::integer: return integer_;
+    case Kind::number: return number_;
+    case Kind::string: return string_;
+    case Kind::array: {
+        auto result = nlohmann::ordered_json::array();
+        for (const Json& item : items_) result.push_back(item.plain());
+        return result;
+    }
+    case Kind::object: {
+        auto result = nlohmann::ordered_json::object();
+        for (const auto& [key, value] : members_) result[key] = value.plain();
+        return result;
+    }
     }
     return nullptr;
 }

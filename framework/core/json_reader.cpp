@@ -117,7 +117,9 @@ private:
         problems_.add(std::move(where), std::move(what), std::move(hint));
         throw Error(problems_.list());
     }
-    [[noreturn]] void fail(std::string what, std::string hint = {}) { fail(here(), std::move(what), hint.empty() ? guess() : std::move(hint)); }
+    [[noreturn]] void fail(std::string what, std::string hint = {}) {
+        fail(here(), std::move(what), hint.empty() ? guess() : std::move(hint));
+    }
 
     /// Other dialects put these where JSON wants something else.
     std::string guess() const {
@@ -259,7 +261,8 @@ private:
             text += meanings[i];
             return;
         }
-        if (c != 'u') fail(start, "expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u after '\\', found " + found(), "a backslash itself is \\\\");
+        if (c != 'u')
+            fail(start, "expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u after '\\', found " + found(), "a backslash itself is \\\\");
         step();
         unsigned code = readHex();
         if (code >= 0xD800 && code <= 0xDBFF) {  // the first half of a surrogate pair (RFC 8259, section 7)
@@ -296,7 +299,8 @@ private:
         bool integer = true;
         accept('-');
         if (accept('0')) {
-            if (isDigit(peek())) fail(value.where_, "expected no digits after a leading 0", "JSON numbers are decimal, without leading zeros");
+            if (isDigit(peek()))
+                fail(value.where_, "expected no digits after a leading 0", "JSON numbers are decimal, without leading zeros");
         } else {
             readDigits("after '-'");
         }

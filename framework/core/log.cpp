@@ -74,7 +74,8 @@ void Progress::advance(std::size_t steps) {
     const std::string left = done_ > 0 ? duration(secondsSince(start_) * (1 - share) / share) + " left" : "";
     if (terminal_) {
         const auto full = static_cast<std::size_t>(share * barWidth);
-        fmt::print(stderr, "\r\x1b[K{} [{}{}] {:.0f} % {}", what_, std::string(full, '#'), std::string(barWidth - full, '.'), 100 * share, left);
+        fmt::print(stderr, "\r\x1b[K{} [{}{}] {:.0f} % {}", what_, std::string(full, '#'), std::string(barWidth - full, '.'), 100 * share,
+                   left);
         std::fflush(stderr);
     } else {
         writeLine("", fmt::format("{}: {} of {}, {}", what_, done_, total_, left));

@@ -140,28 +140,26 @@ private:
         for (const NodeDescription* described : descriptions_) {
             if (std::ranges::any_of(described->edges, namesScene)) return true;
         }
-        bool produced = false;
+        bool produced = false;  // by a pass further up
+        const bool producedAnywhere = std::ranges::any_of(nodes(), makesWorld);
         for (std::size_t i = 0; i < nodes().size(); ++i) {
-            if (!nodes()[i].pass) continue;
-            for (const Port* port : nodes()[i].pass->ports) {
-                const bool wired = std::ranges::find(descriptions_[i]->edges, port->name, &EdgeDescription::port) != descriptions_[i]->edges.end();
-                // The first pass that gives a World has none before itself to take one from.
-                if (isWorld(*port) && port->isInput() && !port->optional && !wired && (!produced || !hasLaterOrOtherWorld(i))) return true;
-            }
-            produced = produced || makesWorld(i);
+            const bool served = makesWorld(nodes()[i]) ? produced : producedAnywhere;
+            if (!served && hasFreeWorldInput(i)) return true;
+            produced = produced || makesWorld(nodes()[i]);
         }
         return false;
     }
 
-    bool makesWorld(std::size_t i) {
-        const auto isWorldOutput = [](const Port* port) { return isWorld(*port) && isMade(*port); };
-        return nodes()[i].pass && std::ranges::any_of(nodes()[i].pass->ports, isWorldOutput);
+    static bool makesWorld(const GraphNode& node) {
+        return node.pass && std::ranges::any_of(node.pass->ports, [](const Port* port) { return isWorld(*port) && isMade(*port); });
     }
-    bool hasLaterOrOtherWorld(std::size_t i) {
-        for (std::size_t k = 0; k < nodes().size(); ++k) {
-            if (k != i && makesWorld(k)) return true;
-        }
-        return false;
+
+    bool hasFreeWorldInput(std::size_t i) {
+        const auto isFree = [&](const Port* port) {
+            return isWorld(*port) && port->isInput() && !port->optional &&
+                   std::ranges::find(descriptions_[i]->edges, port->name, &EdgeDescription::port) == descriptions_[i]->edges.end();
+        };
+        return nodes()[i].pass && std::ranges::any_of(nodes()[i].pass->ports, isFree);
     }
 
     void addScene() {
@@ -270,7 +268,7 @@ private:
     void bindWorlds() {
         for (const bool producers : {true, false}) {
             for (std::size_t i = 0; i < nodes().size(); ++i) {
-                if (!nodes()[i].pass || makesWorld(i) != producers) continue;
+                if (!nodes()[i].pass || makesWorld(nodes()[i]) != producers) continue;
                 for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
                     const Port& port = *nodes()[i].pass->ports[p];
                     const bool free = std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
@@ -281,9 +279,9 @@ private:
     }
 
     std::optional<Source> worldFor(std::size_t consumer, bool prev) {
-        const std::size_t end = makesWorld(consumer) && !prev ? consumer : nodes().size();
+        const std::size_t end = makesWorld(nodes()[consumer]) && !prev ? consumer : nodes().size();
         for (std::size_t i = end; i-- > 0;) {
-            if (!makesWorld(i) || (!prev && dependsOn(int(i), int(consumer)))) continue;
+            if (!makesWorld(nodes()[i]) || (!prev && dependsOn(int(i), int(consumer)))) continue;
             const auto& ports = nodes()[i].pass->ports;
             for (std::size_t p = 0; p < ports.size(); ++p) {
                 if (isWorld(*ports[p]) && isMade(*ports[p])) return Source{int(i), int(p), prev};

@@ -15,7 +15,7 @@ namespace {
 class Measure {
 public:
     Measure(const Graph& graph, glm::uvec2 frame) : graph_(graph), frame_(frame) {
-        for (const GraphNode& node : graph.nodes) stepsLeft_ += node.pass ? node.pass->ports.size() : 0;
+        for (const GraphNode& node : graph.nodes) stepsLeft_ += 2 * node.pass->ports.size();  // count() asks size() of the same port
     }
 
     glm::uvec2 size(int nodeIndex, int portIndex) {

@@ -44,7 +44,7 @@ struct Graph {
     LODESTIR_API Json resolved() const;
 };
 
-/// Constructs the passes and checks everything; throws Error with all that is wrong.
+/// Constructs the passes and checks everything; throws Error with all that is wrong. `libraries` must outlive the graph.
 LODESTIR_API Graph buildGraph(Description description, PluginLibraries& libraries);
 
 /// The port that "pass.port", or "pass" where it has one output, names (for --dump); follows the bypasses of passes that are off.

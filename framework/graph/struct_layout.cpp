@@ -75,6 +75,8 @@ private:
 
 void Declarations::read(const std::string& file, const std::string& text) {
     const std::string code = withoutComments(text);
+    skipped_.clear();
+    conditional_.clear();
     int line = 1;
     bool lineStart = true;
     for (std::size_t i = 0; i < code.size();) {
@@ -120,7 +122,7 @@ void Declarations::readDirective(std::string_view line) {
     const bool cpp = std::ranges::find(words, "__cplusplus") != words.end();
     if (words[0] == "ifdef" || words[0] == "ifndef" || words[0] == "if") {
         conditional_.push_back(cpp);
-        skipped_.push_back(cpp && words[0] != "ifndef");
+        skipped_.push_back(cpp && words[0] != "ifndef" && line.find('!') == line.npos);
     } else if ((words[0] == "else" || words[0] == "elif") && !skipped_.empty()) {
         if (conditional_.back()) skipped_.back() = !skipped_.back();
     } else if (words[0] == "endif" && !skipped_.empty()) {

@@ -12,7 +12,7 @@ namespace lodestir {
 /// What an OpenEXR file holds besides its pixels.
 struct ExrFile {
     ImageData image;
-    std::vector<std::string> channels;               ///< name of each channel of the image
+    std::vector<std::string> channels;              ///< name of each channel of the image
     std::map<std::string, std::string> attributes;  ///< the header's text attributes
 };
 

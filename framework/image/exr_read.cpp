@@ -28,7 +28,10 @@ using Imath::Box2i;
 long long widthOf(const Box2i& box) { return static_cast<long long>(box.max.x) - box.min.x + 1; }
 long long heightOf(const Box2i& box) { return static_cast<long long>(box.max.y) - box.min.y + 1; }
 
+/// Damaged files have damaged names, which messages repeat: no control character of theirs should reach a terminal.
 [[noreturn]] void refuse(const Path& path, std::string what, std::string hint = {}) {
+    std::ranges::replace_if(
+        what, [](char c) { return c < ' ' || c > '~'; }, '?');
     throw Error(Where{path.string()}, std::move(what), std::move(hint));
 }
 
@@ -136,7 +139,8 @@ ExrFile decode(std::span<const std::byte> bytes, const Path& path) {
     result.channels = chooseChannels(header.channels());
     checkHeader(path, header, result.channels.size());
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute())) {
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
+        if (text && std::string(attribute.name()) != "type") {  // OpenEXR adds the layout of the file under this name
             result.attributes[attribute.name()] = text->value();
         }
     }

@@ -66,8 +66,8 @@ std::string encode(const std::string& name, const ImageData& image, const std::v
 void writeExr(const Path& path, const ImageData& image, const ExrOptions& options) {
     const std::vector<std::string> names = options.channels.empty() ? defaultNames(image.channels) : options.channels;
     if (names.size() != static_cast<std::size_t>(image.channels)) {
-        throw Error(Where{path.string()}, "cannot be written: " + std::to_string(image.channels) + " channels have " +
-                                              std::to_string(names.size()) + " names");
+        throw Error(Where{path.string()},
+                    "cannot be written: " + std::to_string(image.channels) + " channels have " + std::to_string(names.size()) + " names");
     }
     try {
         writeFile(path, encode(path.filename().string(), image, names, options));

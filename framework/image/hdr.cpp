@@ -57,12 +57,14 @@ private:
     bool readHeader() {
         if (!rest_.starts_with("#?RADIANCE") && !rest_.starts_with("#?RGBE")) refuse("is not a Radiance .hdr file");
         for (std::string_view line = takeTextLine(); !line.empty(); line = takeTextLine()) {
-            if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") refuse("has the pixels " + std::string(line) + ", not 32-bit_rle_rgbe");
+            if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
+                refuse("has the pixels " + std::string(line) + ", not 32-bit_rle_rgbe");
         }
         const std::string resolution(takeTextLine());
         char direction = 0;
         long long width = 0, height = 0;
-        if (std::sscanf(resolution.c_str(), "%cY %9lld +X %9lld", &direction, &height, &width) != 3 || (direction != '-' && direction != '+')) {
+        if (std::sscanf(resolution.c_str(), "%cY %9lld +X %9lld", &direction, &height, &width) != 3 ||
+            (direction != '-' && direction != '+')) {
             refuse("has the resolution \"" + resolution.substr(0, 40) + "\", not one of the form -Y HEIGHT +X WIDTH");
         }
         checkImageSize(path_, width, height, 3);

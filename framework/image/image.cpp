@@ -27,8 +27,8 @@ ImageData firstChannels(const ImageData& image, int count) {
 
 void checkImageSize(const std::filesystem::path& path, long long width, long long height, long long channels) {
     constexpr long long sideLimit = 65536, pixelLimit = 1ll << 27, channelLimit = 64, valueLimit = 1ll << 30;
-    const bool sane = width > 0 && width <= sideLimit && height > 0 && height <= sideLimit && width * height <= pixelLimit && channels > 0 &&
-                      channels <= channelLimit && width * height * channels <= valueLimit;
+    const bool sane = width > 0 && width <= sideLimit && height > 0 && height <= sideLimit && width * height <= pixelLimit &&
+                      channels > 0 && channels <= channelLimit && width * height * channels <= valueLimit;
     if (!sane) {
         throw Error(Where{path.string()},
                     "claims to have " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " + std::to_string(channels) +

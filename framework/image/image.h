@@ -19,7 +19,8 @@ struct ImageData {
     std::size_t pixelCount() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
     std::size_t index(int x, int y, int c) const {
         assert(x >= 0 && x < width && y >= 0 && y < height && c >= 0 && c < channels);
-        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) * static_cast<std::size_t>(channels) +
+        return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                   static_cast<std::size_t>(channels) +
                static_cast<std::size_t>(c);
     }
     float& at(int x, int y, int c) { return values[index(x, y, c)]; }

@@ -14,6 +14,7 @@ LODESTIR_API ImageData readImage(const std::filesystem::path& path);
 
 /// Writes .exr (32 bits, with `attributes` as text in its header) or .png (8 bits, clamped; it has no room for attributes).
 /// Throws Error when the name ends otherwise, or the file cannot be written.
-LODESTIR_API void writeImage(const std::filesystem::path& path, const ImageData& image, const std::map<std::string, std::string>& attributes = {});
+LODESTIR_API void writeImage(const std::filesystem::path& path, const ImageData& image,
+                             const std::map<std::string, std::string>& attributes = {});
 
 }  // namespace lodestir

@@ -29,7 +29,9 @@ struct Pair {
     std::span<const float> r(std::size_t pixel) const { return {reference.values.data() + pixel * channels(), channels()}; }
 };
 
-double meanOf(std::span<const float> values) { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); }
+double meanOf(std::span<const float> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -47,12 +49,16 @@ template <double (*error)(double x, double r, double exposure)> std::vector<doub
 
 double squared(double x, double r, double) { return square(x - r); }
 double absolute(double x, double r, double) { return std::abs(x - r); }
-double absolutePercentage(double x, double r, double exposure) { return 100 * exposure * std::abs(x - r) / (exposure * std::abs(r) + epsilon); }
+double absolutePercentage(double x, double r, double exposure) {
+    return 100 * exposure * std::abs(x - r) / (exposure * std::abs(r) + epsilon);
+}
 double symmetric(double x, double r, double exposure) {
     return exposure * std::abs(x - r) / (exposure * (std::abs(x) + std::abs(r)) + epsilon);
 }
 double squaredDisplayed(double x, double r, double) {
-    const auto displayed = [](double value) { return encodeSrgb(static_cast<float>(std::isnan(value) ? value : std::clamp(value, 0.0, 1.0))); };
+    const auto displayed = [](double value) {
+        return encodeSrgb(static_cast<float>(std::isnan(value) ? value : std::clamp(value, 0.0, 1.0)));
+    };
     return square(static_cast<double>(displayed(x)) - static_cast<double>(displayed(r)));
 }
 
@@ -101,9 +107,10 @@ constexpr Metric table[] = {
     {"relmse_trimmed", "relmse without the 0.1 % of pixels whose errors are largest (rounded down); stands beside relmse, not in its place",
      relativeSquared, trimmedMean},
     {"mae", "mean of |x - r| over pixels and channels, linear values", byChannel<absolute>, mean},
-    {"mape", "mean of 100 |x - r| / (|r| + 0.01) over pixels and channels, percent; images scaled as for relmse", byChannel<absolutePercentage>,
+    {"mape", "mean of 100 |x - r| / (|r| + 0.01) over pixels and channels, percent; images scaled as for relmse",
+     byChannel<absolutePercentage>, mean},
+    {"smape", "mean of |x - r| / (|x| + |r| + 0.01) over pixels and channels, 0 to 1; images scaled as for relmse", byChannel<symmetric>,
      mean},
-    {"smape", "mean of |x - r| / (|x| + |r| + 0.01) over pixels and channels, 0 to 1; images scaled as for relmse", byChannel<symmetric>, mean},
     {"bias", "mean(x) / mean(r) - 1 over pixels and channels; positive where x is too bright", relativeDifference, mean},
     {"psnr", "-10 log10 of the mse of the images as displayed (clamped to [0, 1], sRGB-encoded, peak 1), dB; infinite for equal images",
      byChannel<squaredDisplayed>, decibels},
@@ -116,7 +123,8 @@ const Metric& metricNamed(std::string_view name) {
 }
 
 std::string shape(const ImageData& image) {
-    return std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels of " + std::to_string(image.channels) + " channels";
+    return std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels of " + std::to_string(image.channels) +
+           " channels";
 }
 
 std::vector<double> errorsOf(const Metric& metric, const ImageData& test, const ImageData& reference, const MetricOptions& options) {

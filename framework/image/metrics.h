@@ -28,6 +28,7 @@ LODESTIR_API std::string metricAbout(std::string_view name);
 LODESTIR_API double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
 
 /// The error of each pixel (one channel): what the metric averages, before roots or logarithms. Throws as evaluate() does.
-LODESTIR_API ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
+LODESTIR_API ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference,
+                                const MetricOptions& options = {});
 
 }  // namespace lodestir

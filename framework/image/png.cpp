@@ -72,21 +72,22 @@ ImageData readPng(const Path& path) {
     const auto* bytes = reinterpret_cast<const stbi_uc*>(content.data());
     const int size = static_cast<int>(content.size());
     ImageData image;
-    const auto fill = [&](const auto* encoded, float scale) {
+    const auto fill = [&](const auto* encoded, float top) {
         if (!encoded) refuse(std::string("is damaged or cut: ") + stbi_failure_reason());
         const int opacity = image.channels % 2 == 0 ? image.channels - 1 : -1;
         image.values.resize(image.pixelCount() * static_cast<std::size_t>(image.channels));
         for (std::size_t i = 0; i < image.values.size(); ++i) {
-            const float value = static_cast<float>(encoded[i]) * scale;
+            const float value = static_cast<float>(encoded[i]) / top;
             image.values[i] = static_cast<int>(i % static_cast<std::size_t>(image.channels)) == opacity ? value : decodeSrgb(value);
         }
     };
     if (stbi_is_16_bit_from_memory(bytes, size)) {
-        const Pixels<stbi_us> pixels(stbi_load_16_from_memory(bytes, size, &image.width, &image.height, &image.channels, 0), stbi_image_free);
-        fill(pixels.get(), 1 / 65535.0f);
+        const Pixels<stbi_us> pixels(stbi_load_16_from_memory(bytes, size, &image.width, &image.height, &image.channels, 0),
+                                     stbi_image_free);
+        fill(pixels.get(), 65535);
     } else {
         const Pixels<stbi_uc> pixels(stbi_load_from_memory(bytes, size, &image.width, &image.height, &image.channels, 0), stbi_image_free);
-        fill(pixels.get(), 1 / 255.0f);
+        fill(pixels.get(), 255);
     }
     return image;
 }

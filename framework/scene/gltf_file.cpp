@@ -138,7 +138,7 @@ void readBuffers(GltfFile& file, const Container& container, Problems& problems)
                 try {
                     bytes = readUri(uri->asString("uri"), file.path.parent_path());
                 } catch (const Error& error) {
-                    throw file.error(pointer + "/uri", error.problems()[0].what, error.problems()[0].hint);
+                    throw file.error(pointer + "/uri", error);
                 }
             } else if (i == 0 && container.hasBinary) {
                 bytes.assign(container.binary.begin(), container.binary.end());
@@ -198,6 +198,11 @@ Error GltfFile::error(const std::string& pointer, const std::string& what, const
     return Error(where, pointer + ": " + what, hint);
 }
 
+Error GltfFile::error(const std::string& pointer, const Error& cause) const {
+    const Problem& problem = cause.problems().front();
+    return error(pointer, problem.where.file.empty() ? problem.what : problem.where.file + ": " + problem.what, problem.hint);
+}
+
 GltfFile readGltfFile(const Path& path) {
     static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and read in place");
     const std::vector<std::byte> bytes = readBytes(path);
@@ -206,8 +211,6 @@ GltfFile readGltfFile(const Path& path) {
     file.binary = bytes.size() >= 4 && word(bytes, 0) == glbMagic;
     Container container{.text = {reinterpret_cast<const char*>(bytes.data()), bytes.size()}};
     if (file.binary) container = openBinary(bytes, path.string());
-    else if (container.text.starts_with("version https://git-lfs.github.com/spec/"))
-        throw Error({path.string()}, "this is a git-lfs pointer, not the model itself", "fetch it with: git lfs pull");
 
     file.json = Json::parse(container.text, path.string());
     if (!file.json.isObject()) throw Error({path.string()}, fmt::format("a glTF file is a JSON object, this is {}", file.json.kindName()));

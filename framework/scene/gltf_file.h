@@ -23,6 +23,8 @@ struct GltfFile {
     /// Error at the value that a JSON pointer names ("/meshes/0/primitives/1"), or at the deepest part of it that exists.
     /// The pointer is part of the text.
     Error error(const std::string& pointer, const std::string& what, const std::string& hint = {}) const;
+    /// The same for what went wrong in another file that this value names.
+    Error error(const std::string& pointer, const Error& cause) const;
 };
 
 /// Reads a .gltf or .glb file (told apart by content). Error when it is no glTF 2.0, when it needs an extension that is not

@@ -181,8 +181,8 @@ private:
             import_.note(fmt::format("camera \"{}\" is orthographic; it is ignored", name));
         } else if (!(fovy > 0) || fovy >= 3.14159f) {
             import_.note(fmt::format("camera \"{}\" has a field of view of {} radians; it is ignored", name, fovy));
-        } else if (import_.scene.camera.node != none || !import_.scene.camera.keys.empty()) {
-            import_.note("only the first camera is used");
+        } else if (!import_.scene.camera.keys.empty()) {
+            if (import_.scene.camera.node != none) import_.note("only the first camera is used");
         } else {
             import_.scene.camera.node = place;
             import_.scene.camera.keys = {CameraKey{.fovy = fovy}};

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <stb/stb_image.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -21,21 +22,26 @@ Wrap wrapOf(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
-std::string_view formatOf(std::span<const std::byte> bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
-    if (text.size() >= 12 && text.starts_with("RIFF") && text.substr(8, 4) == "WEBP") return "a WebP image";
-    if (text.starts_with("\xabKTX")) return "a KTX image";
-    if (text.starts_with("DDS ")) return "a DDS image";
-    return {};
+std::vector<std::byte> imageBytes(const GltfFile& file, int index) {
+    const Json& image = file.json.find("images")->items()[static_cast<std::size_t>(index)];
+    if (const Json* uri = image.find("uri")) return readUri(uri->asString("uri"), file.path.parent_path());
+    const Json* view = image.find("bufferView");
+    if (!view) throw Error("the image has neither a URI nor a buffer view");
+    const auto bytes = bufferViewBytes(file, static_cast<int>(std::clamp<std::int64_t>(view->asInt("bufferView"), -1, 0x7fffffff)));
+    return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
 
+std::string_view foreignFormat(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 16));
+    if (text.size() >= 12 && text.starts_with("RIFF") && text.substr(8, 4) == "WEBP") return "WebP";
+    if (text.starts_with("\xabKTX")) return "KTX";
+    return text.starts_with("DDS ") ? "DDS" : "";
+}
+
 void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     if (bytes.empty()) throw Error("the image has no data");
-    if (const std::string_view foreign = formatOf(bytes); !foreign.empty()) {
-        throw Error(fmt::format("{} cannot be read", foreign), "convert it to PNG or JPEG");
-    }
     if (bytes.size() > 0x7fffffff) throw Error("the image file is larger than 2 GiB");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
@@ -98,18 +104,17 @@ std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
 void GltfTextures::decode() {
     const std::vector<std::pair<int, std::vector<std::uint32_t>>> images(users_.begin(), users_.end());
     std::vector<std::optional<Error>> errors(images.size());
+    std::vector<std::string_view> foreign(images.size());
     const GltfFile& file = import_.file;
     parallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto& [index, users] = images[i];
-            const std::string pointer = fmt::format("/images/{}", index);
             try {
-                const Json& image = file.json.find("images")->items()[static_cast<std::size_t>(index)];
-                const Json *uri = image.find("uri"), *view = image.find("bufferView");
+                const std::vector<std::byte> bytes = imageBytes(file, index);
+                foreign[i] = foreignFormat(bytes);
+                if (!foreign[i].empty()) continue;
                 Texture& first = import_.scene.textures[users[0]];
-                if (uri) decodeImage(readUri(uri->asString("uri"), file.path.parent_path()), first);
-                else if (view) decodeImage(bufferViewBytes(file, static_cast<int>(std::min<std::int64_t>(view->asInt("bufferView"), 0x7fffffff))), first);
-                else throw Error("the image has neither a URI nor a buffer view");
+                decodeImage(bytes, first);
                 for (std::size_t user = 1; user < users.size(); ++user) {
                     Texture& other = import_.scene.textures[users[user]];
                     other.width = first.width;
@@ -117,13 +122,29 @@ void GltfTextures::decode() {
                     other.rgba = first.rgba;
                 }
             } catch (const Error& error) {
-                const Problem& problem = error.problems()[0];
-                errors[i] = problem.where.file.empty() ? file.error(pointer, problem.what, problem.hint) : error;
+                errors[i] = error.problems()[0].where.file == file.path.string() ? error : file.error(fmt::format("/images/{}", index), error);
             }
         }
     });
-    for (const auto& error : errors) {
-        if (error) import_.problems.add(*error);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        if (errors[i]) import_.problems.add(*errors[i]);
+        if (!foreign[i].empty()) leaveOut(images[i].first, foreign[i]);
+    }
+}
+
+void GltfTextures::leaveOut(int image, std::string_view format) {
+    import_.note(fmt::format("{} images cannot be read; textures of that format are left out", format));
+    for (const std::uint32_t texture : users_[image]) {
+        Texture& empty = import_.scene.textures[texture];
+        empty.width = empty.height = 1;
+        empty.rgba = {255, 255, 255, 255};
+        for (std::size_t m = import_.materialBase; m < import_.scene.materials.size(); ++m) {
+            Material& material = import_.scene.materials[m];
+            if (material.emissiveMap.texture == texture) material.emission = glm::vec3(0);  // the map said where; all of it would be wrong
+            for (TextureSlot* slot : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap, &material.occlusionMap, &material.emissiveMap, &material.transmissionMap}) {
+                if (slot->texture == texture) *slot = {};
+            }
+        }
     }
 }
 

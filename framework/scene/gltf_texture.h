@@ -16,11 +16,14 @@ public:
     /// when it has no image that can be read.
     std::uint32_t use(int index, bool srgb, const std::string& user);
 
-    /// Reads and decodes every image that was asked for, on all cores. Problems are gathered.
+    /// Reads and decodes every image that was asked for, on all cores. Problems are gathered. A texture in a format that cannot be
+    /// read (WebP, KTX, DDS) is taken out of the materials with a note.
     void decode();
 
 private:
     using Key = std::tuple<int, bool, bool, Wrap, Wrap>;  // image, sRGB, nearest, wrap of u and v
+
+    void leaveOut(int image, std::string_view format);
 
     GltfImport& import_;
     std::map<Key, std::uint32_t> textures_;
@@ -29,5 +32,8 @@ private:
 
 /// Decodes PNG, JPEG, BMP, TGA or GIF bytes to 8-bit RGBA into width, height and rgba of `texture`. Error without a place when it cannot.
 void decodeImage(std::span<const std::byte> bytes, Texture& texture);
+
+/// "WebP", "KTX" or "DDS": formats that glTF files name but that cannot be decoded here; else empty.
+std::string_view foreignFormat(std::span<const std::byte> bytes);
 
 }  // namespace lodestir

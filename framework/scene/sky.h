@@ -6,7 +6,7 @@
 namespace lodestir {
 
 struct Sky {
-    glm::vec3 sunDirection{0.4f, 0.75f, 0.5f};  ///< towards the sun, any length but 0
+    glm::vec3 sunDirection{-0.5f, 0.8f, 0.5f};  ///< towards the sun, any length but 0
     float sunAngle = 0.53f;                     ///< diameter of the disc, degrees
     float sunStrength = 1;                      ///< factor on the disc alone, not on the light it scatters
     float turbidity = 3;                        ///< haze: 1 is air without dust, 2 very clear, 3 clear, 6 hazy (Preetham et al. 1999, section 2)

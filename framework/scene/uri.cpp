@@ -98,11 +98,7 @@ std::vector<std::byte> readUri(const std::string& uri, const Path& folder) {
     Path path = folder / Path(percentDecode(uri));
     if (!std::filesystem::exists(path)) path = folder / Path(uri);
     if (!std::filesystem::is_regular_file(path)) throw Error(fmt::format("file \"{}\" is missing", (folder / Path(percentDecode(uri))).string()));
-    std::vector<std::byte> bytes = readBytes(path);
-    constexpr std::string_view pointer = "version https://git-lfs.github.com/spec/";
-    const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), pointer.size()));
-    if (start == pointer) throw Error(fmt::format("\"{}\" is a git-lfs pointer, not the data itself", path.string()), "fetch it with: git lfs pull");
-    return bytes;
+    return readBytes(path);
 }
 
 }  // namespace lodestir

@@ -18,7 +18,7 @@ std::string percentDecode(std::string_view text);
 std::optional<std::vector<std::byte>> decodeBase64(std::string_view text);
 
 /// Reads what `uri` names: a data URI, or a file relative to `folder` (tried decoded, then as written).
-/// Error without a place when it is a network address, is missing, is a git-lfs pointer or is malformed.
+/// Error when it is a network address, is missing, is a git-lfs pointer or is malformed.
 std::vector<std::byte> readUri(const std::string& uri, const Path& folder);
 
 }  // namespace lodestir

@@ -12,7 +12,7 @@ struct Visibility final : Pass {
     Out<Image>              motion{this, "motion", "from this frame's position of the hit to last frame's, pixels, y down", Format::rg32f};
     Out<Image>              depth{this, "depth", "distance along the view direction, scene units; 0 where nothing was hit", Format::r32f};
     Out<Image>              normal{this, "normal", "shading normal, world space; zero where nothing was hit", Format::rgba16f};
-    Out<Image>              albedo{this, "albedo", "base colour, linear", Format::rgba16f};
+    Out<Image>              albedo{this, "albedo", "base colour, linear; zero where nothing was hit", Format::rgba16f};
     Param<bool>             pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};
     Param<bool>             lens{this, "lens", true, "rays from a random point of the camera's aperture instead of its centre"};
 };

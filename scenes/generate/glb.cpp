@@ -71,14 +71,14 @@ int Glb::addPicture(const std::string& name, const Picture& picture) {
     return int(textures.size()) - 1;
 }
 
-int Glb::addMaterial(Material material, const Textures& painted) {
+Material Glb::dressed(Material material, const Textures& painted) {
     material.colorPicture = addPicture(material.name + "_color", painted.color);
     if (!painted.normal.empty()) material.normalPicture = addPicture(material.name + "_normal", painted.normal);
     if (!painted.roughness.empty()) {
         material.roughnessPicture = addPicture(material.name + "_roughness", painted.roughness);
         material.roughness = material.metalness = 1;  // the factors multiply the picture
     }
-    return addMaterial(material);
+    return material;
 }
 
 int Glb::addMaterial(const Material& m) {

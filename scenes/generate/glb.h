@@ -63,8 +63,8 @@ class Glb {
 public:
     int addPicture(const std::string& name, const Picture& picture);
 
-    /// A material whose pictures are the painted ones; factors stay as given.
-    int addMaterial(Material material, const Textures& textures);
+    /// `material` wearing painted pictures; copies of it with another colour share them.
+    Material dressed(Material material, const Textures& textures);
     int addMaterial(const Material& material);
 
     /// Vertex data that several meshes may share. Tangents are written where Mesh::hasTangents says so.

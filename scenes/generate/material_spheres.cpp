@@ -169,7 +169,7 @@ void addSpheres(Glb& glb) {
     row.put({.name = "paint_silk", .color = {0.70f, 0.36f, 0.03f}, .roughness = 0.24f}, 2, false);
     row.put({.name = "paint_satin", .color = {0.016f, 0.20f, 0.22f}, .roughness = 0.45f}, 3, false);
 
-    const int hole = glb.addMaterial({.name = "perforated", .mask = true, .doubleSided = true}, paintPerforation());
+    const int hole = glb.addMaterial(glb.dressed({.name = "perforated", .mask = true, .doubleSided = true}, paintPerforation()));
     row.put("perforated", glb.addMesh("perforated", {{row.ball, hole}}), 4, false);
     const int bulb = glb.addMaterial({.name = "bulb", .emission = {24, 13, 5}});
     glb.addNode("bulb", glb.addMesh("bulb", {{row.ball, bulb}}), {.translation = {spacing * 0.1f, centreHeight(platformTop), frontRow}, .scale = glm::vec3(0.11f)});
@@ -177,7 +177,7 @@ void addSpheres(Glb& glb) {
     row.put({.name = "paint_chalk", .color = {0.76f, 0.70f, 0.58f}, .roughness = 0.95f}, 5, false);
     const int ink = glb.addMaterial({.name = "vertex_inks", .roughness = 0.22f});
     row.put("vertex_inks", glb.addMesh("vertex_inks", {{glb.addGeometry(inkedSphere()), ink}}), 6, false);
-    const int hammered = glb.addMaterial({.name = "hammered_steel"}, paintHammered());
+    const int hammered = glb.addMaterial(glb.dressed({.name = "hammered_steel"}, paintHammered()));
     row.put("hammered_steel", glb.addMesh("hammered_steel", {{row.ball, hammered}}), 7, false);
     row.put({.name = "glow", .color = glm::vec3(0.8f), .emission = {2.4f, 0.72f, 0.16f}}, 8, false);
 }
@@ -194,13 +194,13 @@ void writeMaterialSpheres(const std::filesystem::path& folder) {
     Model table{"platform", {}};
     Mesh slab = placed(roundedBox({12.0f, platformTop, 5.2f}, 0.03f, 3), {0, platformTop / 2, 0.55f});
     scaleUv(slab, glm::vec2(1 / slateSize), {0.125f, 0.06f});
-    table.add(glb.addMaterial({.name = "slate"}, paintSlate(11, 1024)), slab);
+    table.add(glb.addMaterial(glb.dressed({.name = "slate"}, paintSlate(11, 1024))), slab);
     glb.addNode(table);
 
     Model bench{"bench", {}};
     Mesh step = placed(roundedBox({10.6f, stepTop - platformTop, 1.4f}, 0.05f, 4), {0, (stepTop + platformTop) / 2, backRow});
     scaleUv(step, 1.0f / (2.0f * panelSize));   // boards twice as wide: the set is larger than life
-    bench.add(glb.addMaterial({.name = "walnut"}, paintPanel(walnut(), 5, 1024)), step);
+    bench.add(glb.addMaterial(glb.dressed({.name = "walnut"}, paintPanel(walnut(), 5, 1024))), step);
     glb.addNode(bench);
 
     addSpheres(glb);

@@ -36,7 +36,6 @@ struct Noise {
 
 private:
     float octave(const glm::vec3& p, int level) const;
-    uint32_t corner(glm::ivec3 c, int level) const;
 };
 
 }  // namespace lodestir::generate

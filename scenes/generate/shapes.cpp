@@ -40,7 +40,7 @@ Mesh rectangle(const glm::vec3& corner, const glm::vec3& right, const glm::vec3&
     return grid(1, 1, [&](float u, float v) { return corner + right * u + down * v; });
 }
 
-Mesh roundedBox(const glm::vec3& size, float radius, int segments, Axis grain) {
+Mesh roundedBox(const glm::vec3& size, float radius, int segments, Axis grain, int divisions) {
     struct Face {
         glm::vec3 right, up;
     };
@@ -58,9 +58,10 @@ Mesh roundedBox(const glm::vec3& size, float radius, int segments, Axis grain) {
         const bool turn = std::abs(face.up[int(grain)]) > 0.5f;
 
         // Lattice lines bunch in the rounded rims; each face carries its half of the rounding. The tangent warp spaces them evenly on the arc.
-        const int last = 2 * segments + 1;
+        const int last = 2 * segments + divisions;
         const auto line = [&](int i, float extent) {
-            const float step = float(i <= segments ? segments - i : i - segments - 1) / float(segments);
+            if (i > segments && i < last - segments) return (extent - radius) * (2 * float(i - segments) / float(divisions) - 1);
+            const float step = float(i <= segments ? segments - i : i - (last - segments)) / float(segments);
             const float reach = (extent - radius) + radius * std::tan(step * tau / 8);
             return i <= segments ? -reach : reach;
         };

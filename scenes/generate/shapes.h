@@ -20,8 +20,9 @@ Mesh rectangle(const glm::vec3& corner, const glm::vec3& right, const glm::vec3&
 
 enum class Axis { x, y, z };
 
-/// A box centred on the origin whose edges are rounded by `radius` with `segments` steps. UVs in metres, face by face, u along `grain`.
-Mesh roundedBox(const glm::vec3& size, float radius, int segments = 2, Axis grain = Axis::x);
+/// A box centred on the origin whose edges are rounded by `radius` with `segments` steps; flats are cut into `divisions` where the box is to
+/// be bent. UVs in metres, face by face, u along `grain`.
+Mesh roundedBox(const glm::vec3& size, float radius, int segments = 2, Axis grain = Axis::x, int divisions = 1);
 
 /// A sphere of radius 1. u runs around from +z towards +x, v from the north pole (+y) down.
 Mesh sphere(int columns, int rows);

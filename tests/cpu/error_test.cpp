@@ -19,7 +19,8 @@ TEST(Problem, TextLeavesOutEmptyParts) {
 
 // If this fails, people read the mistakes of a file in the order in which some pass over it happened to find them.
 TEST(Error, SortsByPlaceAndKeepsTheOrderAtOnePlace) {
-    const Error error(std::vector<Problem>{{{"b", 1, 1}, "1"}, {{"a", 10, 2}, "2"}, {{"a", 9, 30}, "3"}, {{"a", 10, 2}, "4"}, {{"a"}, "5"}});
+    const Error error(
+        std::vector<Problem>{{{"b", 1, 1}, "1"}, {{"a", 10, 2}, "2"}, {{"a", 9, 30}, "3"}, {{"a", 10, 2}, "4"}, {{"a"}, "5"}});
     EXPECT_STREQ(error.what(), "a: 5\na:9:30: 3\na:10:2: 2\na:10:2: 4\nb:1:1: 1");
     EXPECT_EQ(error.problems().size(), 5u);
 }

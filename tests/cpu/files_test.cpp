@@ -94,11 +94,13 @@ TEST_F(Files, AKilledWriterLeavesTheOldFile) {
 TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
     const Path path = folder / "image.exr";
     writeFile(path, std::string_view("old"));
-    EXPECT_THROW(writeAside(path, [&](const Path& aside) {
-        EXPECT_EQ(aside.extension(), ".exr");
-        EXPECT_EQ(aside.parent_path(), folder);
-        throw Error("no");
-    }), Error);
+    EXPECT_THROW(writeAside(path,
+                            [&](const Path& aside) {
+                                EXPECT_EQ(aside.extension(), ".exr");
+                                EXPECT_EQ(aside.parent_path(), folder);
+                                throw Error("no");
+                            }),
+                 Error);
     EXPECT_EQ(readText(path), "old");
     EXPECT_EQ(fileCount(), 1u);
 }
@@ -168,7 +170,8 @@ TEST(Hash, EachBitChangesHalfOfThem) {
 /// Sets an environment variable until the end of the scope.
 class Environment {
 public:
-    Environment(const char* name, const char* value) : name_(name), old_(std::getenv(name) ? std::getenv(name) : ""), had_(std::getenv(name)) {
+    Environment(const char* name, const char* value)
+        : name_(name), old_(std::getenv(name) ? std::getenv(name) : ""), had_(std::getenv(name)) {
         value ? ::setenv(name, value, 1) : ::unsetenv(name);
     }
     ~Environment() { had_ ? ::setenv(name_, old_.c_str(), 1) : ::unsetenv(name_); }

@@ -25,7 +25,8 @@ std::string refusal(std::string_view text) {
 
 // If this fails, every complaint about a graph or scene file points to the wrong place.
 TEST(JsonReader, KnowsThePlaceOfEveryKeyAndValue) {
-    const Json root = Json::parse("{ \"a\": [1, 22,\n  \"x\" ],\r\n\t\"b\" : { \"\xC3\xA9\xF0\x9F\x98\x80\": true, \"c\":null } }", "f.json");
+    const Json root =
+        Json::parse("{ \"a\": [1, 22,\n  \"x\" ],\r\n\t\"b\" : { \"\xC3\xA9\xF0\x9F\x98\x80\": true, \"c\":null } }", "f.json");
     EXPECT_EQ(place(root.where()), "1:1");
     EXPECT_EQ(root.where().file, "f.json");
     EXPECT_EQ(root.keyWhere().line, 0);
@@ -84,9 +85,10 @@ TEST(JsonReader, NumbersFollowTheGrammar) {
 }
 
 TEST(JsonReader, RefusesNumbersThatDoNotFit) {
-    EXPECT_EQ(refusal("[9223372036854775808, 1e400]"),
-              "f:1:2: expected an integer of 64 bits, found 9223372036854775808; with a decimal point it is read as a floating-point number\n"
-              "f:1:23: expected a number that a 64-bit float can hold, found 1e400; the largest is about 1.8e308");
+    EXPECT_EQ(
+        refusal("[9223372036854775808, 1e400]"),
+        "f:1:2: expected an integer of 64 bits, found 9223372036854775808; with a decimal point it is read as a floating-point number\n"
+        "f:1:23: expected a number that a 64-bit float can hold, found 1e400; the largest is about 1.8e308");
     for (const char* wrong : {"NaN", "[Infinity]", "[-Infinity]"}) {
         EXPECT_NE(refusal(wrong).find("JSON numbers are finite"), std::string::npos) << wrong;
     }
@@ -97,7 +99,8 @@ TEST(JsonReader, NestingStopsAt128) {
     EXPECT_EQ(refusal(nested(128)), "");
     EXPECT_EQ(refusal(nested(129)), "f:1:129: is nested deeper than 128 levels");
     EXPECT_NE(refusal(std::string(1000000, '[')), "");
-    EXPECT_EQ(refusal("[" + std::string(500, ' ') + nested(100) + "," + nested(127) + "]"), "") << "depth counts what is open, not what was";
+    EXPECT_EQ(refusal("[" + std::string(500, ' ') + nested(100) + "," + nested(127) + "]"), "")
+        << "depth counts what is open, not what was";
 }
 
 TEST(JsonReader, StringsDecodeEscapesAndCheckUtf8) {
@@ -145,10 +148,10 @@ TEST(Json, BuildsAndWrites) {
     root["exposure"] = Json(1.0);
     root["none"] = Json::object();
     root["passes"]["a"]["in"] = Json();
-    EXPECT_EQ(root.dump(), "{\n  \"size\": [960, 540],\n  \"show\": \"display\",\n  \"exposure\": 1.0,\n  \"none\": {},\n"
-                           "  \"passes\": {\n    \"a\": {\n      \"in\": null\n    }\n  }\n}");
-    EXPECT_EQ(root.dump(-1),
-              R"({"size": [960, 540], "show": "display", "exposure": 1.0, "none": {}, "passes": {"a": {"in": null}}})");
+    EXPECT_EQ(root.dump(),
+              "{\n  \"size\": [960, 540],\n  \"show\": \"display\",\n  \"exposure\": 1.0,\n  \"none\": {},\n"
+              "  \"passes\": {\n    \"a\": {\n      \"in\": null\n    }\n  }\n}");
+    EXPECT_EQ(root.dump(-1), R"({"size": [960, 540], "show": "display", "exposure": 1.0, "none": {}, "passes": {"a": {"in": null}}})");
     EXPECT_EQ(Json::parse(root.dump(), "f").dump(), root.dump());
     EXPECT_EQ(Json(std::nan("")).dump(), "null");
     EXPECT_EQ(Json(0.1).dump(), "0.1");

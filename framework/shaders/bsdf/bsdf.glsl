@@ -105,7 +105,7 @@ BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
 
     if (reflected && chance.x > 0.0) {
         float through = (1.0 - fresnelDielectric(min(cosO, 1.0), b.eta)) * (1.0 - fresnelDielectric(min(cosI, 1.0), b.eta)) /
-                        max(1.0 - fresnelDielectricMean(b.eta), 1e-4);
+                        (1.0 - fresnelDielectricMean(b.eta));
         vec3 f = b.base * (b.coverage * dielectric * (1.0 - b.transmission) * through * INV_PI * cosI);
         float pdf = chance.x * INV_PI * cosI;
         value.all += f;

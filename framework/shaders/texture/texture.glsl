@@ -2,8 +2,8 @@
 // Textures read from memory: wrap modes, sRGB, bilinear and trilinear filters, the same bits on every device.
 #include "world/world.h"
 
-/// sRGB decoding (IEC 61966-2-1). The power 2.4 is a polynomial of minimal relative error (9e-5, a fiftieth of a step of 8 bits) on
-/// [0.04045, 1]: an eighth of the time of pow.
+/// sRGB decoding (IEC 61966-2-1). On [0.04045, 1] a polynomial stands for the power 2.4, right to 2e-4 of the value (a tenth of a step of
+/// 8 bits at most), in an eighth of the time of pow.
 vec3 decodeSrgb(vec3 c) {
     vec3 high = -0.11208521 * c + 0.38656649;
     high = high * c - 0.60048726;

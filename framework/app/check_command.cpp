@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// `lodestir check`: validates a graph with all its variants and prints its plan. No GPU.
+#include <framework/app/check_command.h>
+#include <framework/app/session.h>
+#include <framework/graph/plan.h>
+#include <framework/graph/plugins.h>
+#include <framework/graph/scene_node.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace lodestir {
+namespace {
+
+struct Options {
+    SessionOptions session;
+    bool json = false;
+};
+
+/// A variant that nobody runs today should not be found broken in the middle of a study.
+void checkVariants(const Options& options, const std::vector<std::string>& names, PluginLibraries& libraries, Problems& problems) {
+    for (const std::string& name : names) {
+        try {
+            GraphOptions changes;
+            changes.variant = name;
+            buildGraph(loadDescription(options.session.graph, changes), libraries);
+        } catch (const Error& error) {
+            for (const Problem& problem : error.problems()) problems.add(problem.where, fmt::format("variant \"{}\": {}", name, problem.what), problem.hint);
+        }
+    }
+}
+
+int check(const Options& options) {
+    PluginLibraries libraries(options.session.passes);
+    libraries.addBuiltIn("scene", scenePlugin());
+    Problems problems;
+    const Graph graph = buildGraph(loadDescription(options.session.graph, options.session.changes), libraries);
+    std::vector<Source> pinned;
+    for (const std::string& dump : options.session.dumps) pinned.push_back(findSource(graph, dump, Where{"--dump"}));
+    if (!options.session.changes.variant) checkVariants(options, graph.description.variants, libraries, problems);
+    problems.raise();
+    const Plan plan = makePlan(graph, pinned, {.allBarriers = options.session.allBarriers});
+    fmt::print("{}", options.json ? facts(plan, graph).dump() + "\n" : text(plan, graph));
+    return 0;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, std::function<int()>& run) {
+    CLI::App* command = app.add_subcommand("check", "Validates a graph and its variants and prints the plan; no GPU");
+    const auto options = std::make_shared<Options>();
+    options->session.addTo(*command);
+    command->add_flag("--json", options->json, "prints the plan as JSON, with the graph and all its defaults");
+    command->callback([options, &run] { run = [options] { return check(*options); }; });
+}
+
+}  // namespace lodestir

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// If these fail, normals that the CPU packed point elsewhere on the GPU. tests/cpu/pack_test.cpp has the same known answers.
+// groups: 64
+#version 460
+#include "base/pack.glsl"
+#include "base/random.glsl"
+#include "base/test.glsl"
+layout(local_size_x = 64) in;
+
+void main() {
+    uint id = gl_GlobalInvocationID.x;
+    vec3 n = safeNormalize(random3(uvec2(id, 1), 0u, 0u) * 2.0 - 1.0, vec3(0, 0, 1));
+    // Half a step of 1 / 32767 on each coordinate, a whole one for a tangent, stretched up to 4 times by the map.
+    EXPECT_NEAR(unpackNormal(packNormal(n)), n, 7e-5);
+    EXPECT_NEAR(length(unpackNormal(packNormal(n))), 1.0, 5e-7);
+    vec3 packed = unpackNormal(packNormal(n));
+    EXPECT_NEAR(unpackNormal(packNormal(packed)), packed, 1e-6);  // once packed it stays
+    float sign = (id & 1u) == 0u ? 1.0 : -1.0;
+    EXPECT_NEAR(unpackTangent(packTangent(vec4(n, sign))), vec4(n, sign), 1.4e-4);
+    if (id > 0u) return;
+    EXPECT_EQ(packNormal(vec3(0, 0, 1)), 0u);
+    EXPECT_EQ(packNormal(vec3(1, 0, 0)), 0x00007fffu);
+    EXPECT_EQ(packNormal(vec3(-1, 0, 0)), 0x00008001u);
+    EXPECT_EQ(packNormal(vec3(0, 1, 0)), 0x7fff0000u);
+    EXPECT_EQ(packNormal(vec3(0, 0, -1)), 0x7fff7fffu);
+    EXPECT_EQ(packNormal(vec3(1, -2, 2) / 3.0), 0xcccd1999u);
+    EXPECT_EQ(packNormal(vec3(-2, 1, -2) / 3.0), 0x4ccc999au);
+    EXPECT_EQ(unpackNormal(0x7fff7fffu), vec3(0, 0, -1));
+    EXPECT_EQ(packTangent(vec4(0, 0, 1, 1)), 0x00010000u);
+    EXPECT_EQ(packTangent(vec4(0, 0, 1, -1)), 1u);
+    EXPECT_EQ(packTangent(vec4(1, 0, 0, 1)), 0x00007ffeu);
+    EXPECT_EQ(packTangent(vec4(1, 0, 0, -1)), 0x00007fffu);
+    EXPECT_NEAR(unpackColor(0x80ff0033u), vec4(0.2, 0.0, 1.0, 128.0 / 255.0), 1e-6);
+}

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// main() of a shader that traces: carries every pixel's paths through one loop with one call of traceRay, as packets need.
+//
+// The includer defines, before it includes this file,
+//   struct Path { ... };                                      all that a pixel keeps from ray to ray and from item to item
+//   uint pathItems();                                         paths of a pixel, walked one after the other (samples, shifts, ...)
+//   World pathWorld(uint item);                               that the item's rays are traced in
+//   bool pathBegin(inout Path path, World w, ivec2 pixel, uint item);  starts an item; false: it has no ray. At item 0 `path` holds nothing yet
+//   Ray pathRay(inout Path path, out bool anyHit, out uint purpose);   the next ray; anyHit: only whether it hits matters; RAYS_... for the ledger
+//   bool pathStep(inout Path path, World w, Hit hit);         goes on from what that ray hit; false: the item is finished
+//   void pathEnd(Path path, World w, ivec2 pixel);            after the last item
+// pathRay may be called several times for one ray, and so has to give the same one. The whole subgroup walks in step: its paths alternate
+// between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both lanes that go their own way and lanes
+// that start their next path early).
+//
+// pass.glsl gives `push` (base/frame.h) and countRays.
+#include "trace/trace.glsl"
+
+#ifdef TRACE_PERSISTENT
+// A CPU driver splits workgroups over its threads beforehand, whatever they cost; so there are as many as threads, of one subgroup each,
+// and they fetch 8x8 pixels at a time.
+layout(local_size_x = 8) in;
+#else
+layout(local_size_x = 64) in;
+#endif
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer DriverCounter { uint value; };
+
+// Pixels come in tiles of 8x8, or in rows of 64 where the extent is one pixel high. Eight lanes in a row hold a block of 4x2 pixels.
+uvec2 driverTiles() {
+    uvec2 size = push.extent - push.base;
+    return size.y == 1u ? uvec2((size.x + 63u) / 64u, 1u) : (size + 7u) / 8u;
+}
+ivec2 driverPixel(uvec2 tile, uint place) {
+    if (push.extent.y - push.base.y == 1u) return ivec2(push.base + uvec2(tile.x * 64u + place, 0u));
+    uvec2 inBlock = uvec2(place & 3u, (place >> 2) & 1u), block = uvec2((place >> 3) & 1u, place >> 4);
+    return ivec2(push.base + tile * 8u + block * uvec2(4u, 2u) + inBlock);
+}
+
+// Rays traced so far by purpose, 0-2 and 3-5.
+uvec3 driverRays[2] = uvec3[](uvec3(0u), uvec3(0u));
+
+void driverCount(uint purpose) {
+    driverRays[0] += uvec3(equal(uvec3(purpose), uvec3(0u, 1u, 2u)));
+    driverRays[1] += uvec3(equal(uvec3(purpose), uvec3(3u, 4u, 5u)));
+}
+
+void driverWalk(ivec2 pixel) {
+    bool inside = all(lessThan(uvec2(pixel), push.extent));
+    Path path;
+    uint items = pathItems();
+    World world;
+    for (uint item = 0u; item < items; ++item) {
+        world = pathWorld(item);
+        bool live = inside && pathBegin(path, world, pixel, item);
+        bool phase = false;  // which kind of ray the subgroup traces now
+        while (subgroupAny(live)) {
+            bool anyHit = false;
+            Ray ray = Ray(vec3(0.0), 0.0, vec3(1.0), -1.0);
+            uint purpose = RAYS_PURPOSES;
+            if (live) ray = pathRay(path, anyHit, purpose);
+            bool mine = live && anyHit == phase;
+            if (!mine) ray.tMax = -1.0;
+            if (subgroupAny(mine)) {
+                Hit hit = traceRay(world, ray, phase);
+                if (mine) {
+                    driverCount(purpose);
+                    live = pathStep(path, world, hit);
+                }
+            }
+            phase = !phase;
+        }
+    }
+    if (inside) pathEnd(path, world, pixel);
+}
+
+void main() {
+    if (push.warm != 0u) return;
+    uvec2 tiles = driverTiles();
+#ifdef TRACE_PERSISTENT
+    for (;;) {
+        uint tile = 0u;
+        if (gl_LocalInvocationIndex == 0u) tile = atomicAdd(DriverCounter(push.tileCounter).value, 1u);
+        tile = subgroupBroadcast(tile, 0u);
+        if (tile >= tiles.x * tiles.y) break;
+        for (uint row = 0u; row < 8u; ++row)
+            driverWalk(driverPixel(uvec2(tile % tiles.x, tile / tiles.x), row * 8u + gl_LocalInvocationIndex));
+    }
+#else
+    driverWalk(driverPixel(gl_WorkGroupID.xy, gl_LocalInvocationIndex));
+#endif
+    for (uint i = 0u; i < 3u; ++i) {
+        countRays(i, driverRays[0][i]);
+        countRays(3u + i, driverRays[1][i]);
+    }
+#ifdef COUNT_STEPS
+    countRays(RAYS_STEPS, traceSteps);
+#endif
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// Node references and the memory that both software traversals read; scene/bvh.h says how nodes and triangles are laid out.
+#include "world/world.h"
+#include "trace/ray.h"
+
+const uint REF_LEAF = 0x80000000u;      // | (count - 1) << 28 | first triangle
+const uint REF_BACK = 0xd0000000u;      // return from an instance
+const uint REF_INSTANCE = 0xe0000000u;  // | instance
+const uint REF_NONE = 0xffffffffu;
+
+// One over each component of a ray's direction. Zero gets a huge slope instead of an infinite one: infinity times zero is no number.
+vec3 inverseOf(vec3 direction) {
+    const float least = 1e-18;
+    return 1.0 / mix(direction, vec3(least), lessThan(abs(direction), vec3(least)));
+}
+
+// The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing.
+uint rootOf(World w, uint instance, uint mesh) { return w.roots.at[mesh * LEVELS + w.levels.at[instance]]; }
+
+#ifdef COUNT_STEPS
+uint traceSteps = 0u;  // nodes that this invocation's rays visited
+#endif

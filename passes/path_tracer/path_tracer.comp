@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// One path a lane, as a step machine: each turn traces one ray, either along the path or towards a light (shaders/trace/driver.glsl).
+#version 460
+#include "pass.glsl"
+#include "base/random.glsl"
+#include "bsdf/material.glsl"
+#include "light/emission.glsl"
+#include "light/light.glsl"
+#include "trace/trace.glsl"
+#include "world/camera.glsl"
+
+struct Path {
+    uvec2 seed;
+    uint scatterings;   // so far
+    vec3 radiance;      // sum over the samples so far
+    vec3 throughput;
+    float pdf;          // solid-angle density of the last direction; 0: camera or delta lobe, which light sampling can't compete with
+    Ray ray;            // to be traced next
+    bool toLight;       // it asks whether a light sample is visible
+    vec3 direct;        // what the light sample adds if it is
+    Ray onward;         // the path's own next ray, while `ray` goes to a light
+    bool ends;          // there is none
+};
+
+// Weight of light that the path runs into, which light sampling would have found with density `pdfLight`.
+float emissionWeight(float pdf, float pdfLight) {
+    if (pdf == 0 || params.estimator == estimator_bsdf) return 1;
+    return params.estimator == estimator_light ? 0 : misWeight(pdf, pdfLight);
+}
+
+// Weight of a light sample, whose direction BSDF sampling would have found with density `pdfBsdf`.
+float directWeight(LightSample l, float pdfBsdf) {
+    if (l.delta || params.estimator == estimator_light) return 1;
+    return params.estimator == estimator_bsdf ? 0 : misWeight(l.pdf, pdfBsdf);
+}
+
+uint pathItems() { return uint(params.spp); }
+
+World pathWorld(uint item) { return world(); }
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    if (item == 0) p.radiance = vec3(0);
+    uint sampleIndex = frameIndex() * uint(params.spp) + item;
+    p.seed = pathSeed(uvec2(pixel), sampleIndex, runSeed());
+    p.scatterings = 0;
+    p.throughput = vec3(1);
+    p.pdf = 0;
+    p.toLight = false;
+    p.direct = vec3(0);
+    p.ends = false;
+    vec2 offset = params.pixelCentre ? vec2(0.5) : random2(p.seed, 0, RANDOM_FILM);
+    p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), random2(p.seed, 0, RANDOM_LENS));
+    p.onward = p.ray;
+    return true;
+}
+
+// What happens at a vertex of the path: emission, a light sample, the next direction.
+bool scatter(inout Path p, World w, Hit hit) {
+    vec3 direction = p.ray.direction;
+    if (hit.primitive == NONE) {
+        p.radiance += p.throughput * environmentRadiance(w, direction) * emissionWeight(p.pdf, environmentPdf(w, direction));
+        return false;
+    }
+    Surface s = surfaceAt(w, hit, direction);
+    p.throughput *= segmentTransmittance(w, s, hit.t);
+    vec3 emitted = emittedRadiance(w, s);
+    if (emitted != vec3(0)) p.radiance += p.throughput * emitted * emissionWeight(p.pdf, lightPdf(w, hit.instance, hit.primitive, direction, hit.t));
+    if (p.scatterings == params.bounces) return false;
+    uint vertex = ++p.scatterings;
+    Bsdf b = bsdfAt(w, s);
+    vec3 wo = -direction;
+
+    // A light sample (next-event estimation).
+    if (!bsdfAllDelta(b, wo)) {
+        LightSample l = sampleLight(w, s.position, randomBits3(p.seed, vertex, RANDOM_LIGHT_CHOICE), random3(p.seed, vertex, RANDOM_LIGHT_POINT));
+        float pdfBsdf;
+        vec3 f = bsdfEval(b, wo, l.direction, pdfBsdf);
+        p.direct = p.throughput * f * l.radianceOverPdf * directWeight(l, pdfBsdf);
+        p.toLight = p.direct != vec3(0);
+        if (p.toLight) p.ray = shadowRay(w, s, l);
+    }
+
+    // The next direction, and whether roulette lets the path live.
+    BsdfSample next = bsdfSample(b, wo, random3(p.seed, vertex, RANDOM_BSDF));
+    p.ends = next.pdf == 0 || next.weight == vec3(0);
+    if (!p.ends) {
+        p.throughput *= next.weight;
+        p.pdf = next.delta ? 0 : next.pdf;
+        p.onward = spawnRay(w, s, next.wi);
+        if (params.roulette && vertex >= params.rouletteStart) {
+            float survival = clamp(max(p.throughput.r, max(p.throughput.g, p.throughput.b)), 0.05, 0.95);
+            p.ends = random1(p.seed, vertex, RANDOM_ROULETTE) >= survival;
+            p.throughput /= survival;
+        }
+    }
+    if (p.toLight) return true;
+    p.ray = p.onward;
+    return !p.ends;
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
+    anyHit = p.toLight;
+    purpose = p.toLight ? RAYS_NEE : p.scatterings == 0 ? RAYS_PRIMARY : RAYS_CONTINUE;
+    return p.ray;
+}
+
+bool pathStep(inout Path p, World w, Hit hit) {
+    if (!p.toLight) return scatter(p, w, hit);
+    if (hit.primitive == NONE) p.radiance += p.direct;
+    p.toLight = false;
+    p.ray = p.onward;
+    return !p.ends;
+}
+
+void pathEnd(Path p, World w, ivec2 pixel) { storeColor(pixel, vec4(p.radiance / float(params.spp), 1)); }
+
+#include "trace/driver.glsl"

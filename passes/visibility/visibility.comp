@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// One camera ray a pixel, and what is known of its hit without shading.
+#version 460
+#include "pass.glsl"
+#include "base/random.glsl"
+#include "bsdf/material.glsl"
+#include "trace/trace.glsl"
+#include "world/camera.glsl"
+
+struct Path {
+    vec2 film, lens;
+    Ray ray;
+    Hit hit;
+};
+
+uint pathItems() { return 1; }
+
+World pathWorld(uint item) { return world(); }
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
+    vec2 offset = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM);
+    p.film = (vec2(pixel) + offset) / vec2(depthSize());
+    p.lens = params.lens ? random2(seed, 0, RANDOM_LENS) : vec2(0.5);  // the middle of the square is the middle of the disk
+    p.ray = cameraRay(w, p.film, p.lens);
+    return true;
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
+    anyHit = false;
+    purpose = RAYS_PRIMARY;
+    return p.ray;
+}
+
+bool pathStep(inout Path p, World w, Hit hit) {
+    p.hit = hit;
+    return false;
+}
+
+// Where last frame's image showed the point that is now at `film`, relative to it, in pixels. Without a hit: the point at infinity.
+vec2 motionOf(Path p, World w) {
+#if HAS_worldPrev
+    if (!historyValid()) return vec2(0);
+    World before = worldPrev();
+    vec3 point = p.hit.primitive == NONE ? before.camera.position + cameraRay(w, p.film, vec2(0.5)).direction * 1e6
+                                         : positionOn(before, p.hit.instance, p.hit.primitive, p.hit.barycentrics);
+    vec3 seen = cameraProject(before, point, p.lens);
+    return seen.z > 0 ? (seen.xy - p.film) * vec2(depthSize()) : vec2(0);
+#else
+    return vec2(0);
+#endif
+}
+
+void pathEnd(Path p, World w, ivec2 pixel) {
+    PrimaryHit found;
+    found.instance = p.hit.instance;
+    found.primitive = p.hit.primitive;
+    found.barycentrics = p.hit.barycentrics;
+    found.film = p.film;
+    found.lens = p.lens;
+    storeHits(pixelIndex(pixel), found);
+    storeMotion(pixel, motionOf(p, w));
+    if (p.hit.primitive == NONE) {
+        storeDepth(pixel, 0);
+        storeNormal(pixel, vec4(0));
+        storeAlbedo(pixel, vec4(0));
+        return;
+    }
+    Surface s = surfaceAt(w, p.hit, p.ray.direction);
+    storeDepth(pixel, dot(s.position - w.camera.position, w.camera.forward));
+    storeNormal(pixel, vec4(s.shadingNormal, 0));
+    storeAlbedo(pixel, vec4(bsdfAt(w, s).base, 1));
+}
+
+#include "trace/driver.glsl"

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// The command that compares two images: what it prints, and what it refuses.
+#include <framework/app/compare_command.h>
+#include <framework/core/error.h>
+#include <framework/core/files.h>
+#include <framework/core/json.h>
+#include <framework/image/image_file.h>
+#include <framework/image/metrics.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace lodestir {
+namespace {
+
+class Compare : public testing::Test {
+protected:
+    Compare() {
+        std::string name = testing::TempDir() + "lodestir_compare_XXXXXX";
+        folder = ::mkdtemp(name.data());
+        writeImage(folder / "x.exr", {2, 1, 3, {1, 2, 3, 4, 4, 4}});
+        writeImage(folder / "x4.exr", {2, 1, 4, {1, 2, 3, 0, 4, 4, 4, 0.5f}});
+        writeImage(folder / "r.exr", {2, 1, 3, {1, 0, 0.5f, 4, 4, 4}});
+    }
+    ~Compare() override { std::filesystem::remove_all(folder); }
+
+    /// Parses and runs; returns what was printed.
+    std::string compare(std::vector<std::string> arguments) {
+        CLI::App app;
+        std::function<int()> run;
+        addCompare(app, run);
+        for (std::string& argument : arguments) {
+            if (argument.find('.') != argument.npos && argument[0] != '-' && argument[0] != '0') argument = (folder / argument).string();
+        }
+        arguments.insert(arguments.begin(), "compare");
+        std::reverse(arguments.begin(), arguments.end());
+        app.parse(arguments);
+        testing::internal::CaptureStdout();
+        try {
+            EXPECT_EQ(run(), 0);
+        } catch (...) {
+            testing::internal::GetCapturedStdout();
+            throw;
+        }
+        return testing::internal::GetCapturedStdout();
+    }
+
+    Path folder;
+};
+
+// Scripts read this.
+TEST_F(Compare, JsonHasTheMetricsAskedForAndNoOthers) {
+    const Json some = Json::parse(compare({"x.exr", "r.exr", "--metrics", "mse,mae", "--json"}), "stdout");
+    ASSERT_EQ(some.members().size(), 2u);
+    EXPECT_DOUBLE_EQ(some.find("mse")->asNumber(), 10.25 / 6);
+    EXPECT_DOUBLE_EQ(some.find("mae")->asNumber(), 4.5 / 6);
+    const Json all = Json::parse(compare({"x.exr", "r.exr", "--json"}), "stdout");
+    EXPECT_EQ(all.members().size(), metricNames().size());
+    EXPECT_NE(all.find("relmse"), nullptr);
+    const Json same = Json::parse(compare({"r.exr", "r.exr", "--json", "--metrics", "psnr"}), "stdout");
+    EXPECT_TRUE(same.find("psnr")->isNull()) << "JSON has no infinity";
+}
+
+TEST_F(Compare, TextIsALineAMetric) {
+    EXPECT_EQ(compare({"x.exr", "r.exr", "--metrics", "mse,mae"}), "mse             1.70833\nmae             0.75\n");
+    EXPECT_EQ(compare({"r.exr", "r.exr", "--metrics", "psnr"}), "psnr            inf\n");
+}
+
+TEST_F(Compare, OpacityIsNotCompared) {
+    EXPECT_EQ(compare({"x4.exr", "r.exr", "--metrics", "mse"}), compare({"x.exr", "r.exr", "--metrics", "mse"}));
+}
+
+TEST_F(Compare, ExposureCanBeFixed) {
+    const Json fixed = Json::parse(compare({"x.exr", "r.exr", "--metrics", "relmse", "--json", "--exposure", "1"}), "stdout");
+    EXPECT_DOUBLE_EQ(fixed.find("relmse")->asNumber(), 10.25 / 3 / (0.25 + 0.01) / 2);
+}
+
+TEST_F(Compare, MapsAreWritten) {
+    compare({"x.exr", "r.exr", "--metrics", "mse", "--map", "map.exr"});
+    EXPECT_FLOAT_EQ(readImage(folder / "map.exr").at(0, 0, 0), 10.25f / 3);
+    testing::internal::CaptureStderr();
+    compare({"x.exr", "r.exr", "--metrics", "mse", "--map", "map.png", "--map-top", "2"});
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              (folder / "map.png").string() + ": mse per pixel, black is 0, pale yellow is 2 and more\n");
+    EXPECT_GT(readImage(folder / "map.png").at(0, 0, 1), 0.9f);
+    EXPECT_THROW(compare({"x.exr", "r.exr", "--map", "map.jpg"}), Error);
+}
+
+TEST_F(Compare, WrongUseAndWrongFiles) {
+    EXPECT_THROW(compare({"x.exr"}), CLI::ParseError);
+    EXPECT_THROW(compare({"x.exr", "none.exr"}), Error);
+    try {
+        compare({"x.exr", "r.exr", "--metrics", "relsme"});
+        FAIL() << "an unknown metric is wrong use";
+    } catch (const CLI::ParseError& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean \"relmse\"?"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace lodestir

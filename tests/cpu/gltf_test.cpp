@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+// glTF models: known answers on small ones made here; nothing read out of bounds.
+#include "gltf_model.h"
+
+#include <framework/core/error.h>
+#include <framework/scene/gltf.h>
+#include <framework/scene/shading_frame.h>
+#include <framework/scene/uri.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lodestir {
+namespace {
+
+using nlohmann::json;
+
+Path folder() { return Path(testing::TempDir()) / "lodestir_gltf"; }
+
+Scene load(GltfModel& model) {
+    Scene scene;
+    loadGltf(model.write(folder() / "model.gltf"), scene, none);
+    return scene;
+}
+
+/// The message of loading, "" when it loads.
+std::string refusal(GltfModel& model) {
+    try {
+        load(model);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool hasNote(const Scene& scene, const std::string& part) {
+    for (const std::string& note : scene.notes) {
+        if (note.find(part) != std::string::npos) return true;
+    }
+    return false;
+}
+
+void expectNear(const glm::vec3& value, const glm::vec3& expected, float tolerance = 1e-5f) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], tolerance) << "component " << i;
+}
+
+const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+
+// If this fails, references with spaces or letters beyond ASCII, and embedded data, are not found.
+TEST(Uri, DecodesPercentSignsAndBase64) {
+    EXPECT_EQ(percentDecode("a%20b%2Fc%E2%9D%A4%"), "a b/c\xE2\x9D\xA4%");
+    const auto bytes = decodeBase64("TG9kZQ==");
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()), "Lode");
+    EXPECT_TRUE(decodeBase64("")->empty());
+    EXPECT_EQ(decodeBase64("TG9kZQ")->size(), 4u);
+    EXPECT_FALSE(decodeBase64("TG9k!"));
+    EXPECT_FALSE(decodeBase64("TG9kZ"));
+}
+
+// If this fails, strips turn every second triangle inside out, or fans miss their centre.
+TEST(Gltf, TakesStripsAndFansApart) {
+    GltfModel model;
+    const int p = model.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0});
+    model.addMesh({{"attributes", {{"POSITION", p}, {"NORMAL", p}}}, {"mode", 5}});
+    model.addMesh({{"attributes", {{"POSITION", model.positions({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})}, {"NORMAL", model.positions(square)}}}, {"mode", 6}});
+    const Scene scene = load(model);
+    EXPECT_EQ(scene.meshes[0].levels[0].triangles, (std::vector<glm::uvec3>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
+    EXPECT_EQ(scene.meshes[1].levels[0].triangles, (std::vector<glm::uvec3>{{1, 2, 0}, {2, 3, 0}}));
+}
+
+// If this fails, models without normals are shaded by garbage.
+TEST(Gltf, MakesFlatNormals) {
+    GltfModel model;
+    model.addMesh({{"attributes", {{"POSITION", model.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})}}}, {"indices", model.indices({0, 1, 2, 0, 3, 1})}});
+    const MeshLevel level = load(model).meshes[0].levels[0];
+    ASSERT_EQ(level.positions.size(), 6u);  // split: each face has its own
+    expectNear(level.normals[level.triangles[0].x], {0, 0, 1});
+    expectNear(level.normals[level.triangles[1].z], {0, 1, 0});
+}
+
+// If this fails, zero or infinite normals reach the shaders as NaN.
+TEST(Gltf, RepairsBadNormals) {
+    GltfModel model;
+    const float inf = std::numeric_limits<float>::infinity();
+    model.addMesh({{"attributes", {{"POSITION", model.positions({0, 0, 0, 1, 0, 0, 0, 1, 0})}, {"NORMAL", model.positions({0, 0, 0, 0, 0, inf, 0, 3, 0})}}}});
+    const Scene scene = load(model);
+    expectNear(scene.meshes[0].levels[0].normals[0], {0, 0, 1});
+    expectNear(scene.meshes[0].levels[0].normals[1], {0, 0, 1});
+    expectNear(scene.meshes[0].levels[0].normals[2], {0, 1, 0});
+    EXPECT_TRUE(hasNote(scene, "normals"));
+}
+
+// If this fails, normalised integers, strides or sparse replacements are read wrongly.
+TEST(Gltf, ReadsNormalisedInterleavedAndSparse) {
+    GltfModel model;
+    const int p = model.positions({9, 9, 9, 9, 9, 9, 0, 1, 0});
+    const int replaced = model.accessor(std::vector<std::uint8_t>{0, 1}, 5121, "SCALAR", 1), values = model.positions({0, 0, 0, 1, 0, 0});
+    model.json["accessors"][static_cast<std::size_t>(p)]["sparse"] = {{"count", 2},
+                                                                     {"indices", {{"bufferView", replaced}, {"componentType", 5121}}},
+                                                                     {"values", {{"bufferView", values}}}};
+    const int colors = model.accessor(std::vector<std::uint8_t>{255, 0, 51, 0, 0, 255, 0, 0, 255, 255, 255, 0}, 5121, "VEC3", 3, true);
+    json& accessor = model.json["accessors"][static_cast<std::size_t>(colors)];
+    accessor["count"] = 3;  // three colours of 3 bytes, 4 bytes apart
+    model.json["bufferViews"][static_cast<std::size_t>(colors)]["byteStride"] = 4;
+    const int uv = model.accessor(std::vector<std::int16_t>{0, 0, 32767, 0, -32768, 16384}, 5122, "VEC2", 2, true);
+    model.addMesh({{"attributes", {{"POSITION", p}, {"COLOR_0", colors}, {"TEXCOORD_0", uv}, {"NORMAL", model.positions({0, 0, 1, 0, 0, 1, 0, 0, 1})}}}});
+    const MeshLevel level = load(model).meshes[0].levels[0];
+    expectNear(level.positions[0], {0, 0, 0});
+    expectNear(level.positions[1], {1, 0, 0});
+    expectNear(level.positions[2], {0, 1, 0});
+    expectNear(glm::vec3(level.colors[0]), {1, 0, 0.2f});
+    expectNear(glm::vec3(level.colors[1]), {0, 1, 0});
+    expectNear(glm::vec3(level.colors[2]), {1, 1, 1});
+    EXPECT_EQ(level.colors[0].a, 1);
+    EXPECT_NEAR(level.uv0[1].x, 1, 1e-6);
+    EXPECT_NEAR(level.uv0[2].x, -1, 1e-6);
+    EXPECT_NEAR(level.uv0[2].y, 0.5, 1e-4);
+}
+
+// If this fails, one bad vertex poisons bounds and trees, or a triangle is lost without being counted.
+TEST(Gltf, LeavesOutAndCountsBadTriangles) {
+    GltfModel model;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    model.addMesh({{"attributes", {{"POSITION", model.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0, 2, 0, 0})}}}, {"indices", model.indices({0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 0, 2})}});
+    const Scene scene = load(model);
+    EXPECT_EQ(scene.meshes[0].levels[0].triangles.size(), 1u);
+    EXPECT_EQ(scene.droppedTriangles, 3u);
+    EXPECT_TRUE(hasNote(scene, "not finite"));
+    EXPECT_NEAR(scene.bounds()[1].x, 1, 1e-6);
+}
+
+// If this fails, primitives of one mesh lose their materials or attributes when they are merged.
+TEST(Gltf, MergesPrimitivesWithTheirMaterials) {
+    GltfModel model;
+    model.json["materials"] = {{{"name", "a"}}, {{"name", "b"}}};
+    const int p = model.positions(square), uv = model.accessor(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+    model.addMesh({{"attributes", {{"POSITION", p}, {"NORMAL", p}}}, {"material", 1}, {"indices", model.indices({0, 1, 2})}});
+    model.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", p}, {"NORMAL", p}, {"TEXCOORD_0", uv}}}, {"material", 0}, {"indices", model.indices({0, 2, 3})}});
+    model.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", p}}}, {"indices", model.indices({1, 2, 3})}});
+    const Scene scene = load(model);
+    const MeshLevel& level = scene.meshes[0].levels[0];
+    ASSERT_EQ(level.materials.size(), 3u);
+    EXPECT_EQ(scene.materials[level.materials[0]].name, "b");
+    EXPECT_EQ(scene.materials[level.materials[1]].name, "a");
+    EXPECT_EQ(scene.materials[level.materials[2]].name, "default");
+    EXPECT_EQ(level.positions.size(), 9u);  // unused vertices are not carried along
+    ASSERT_EQ(level.uv0.size(), level.positions.size());
+    EXPECT_EQ(level.uv0[0], glm::vec2(0));
+    EXPECT_EQ(level.uv0[level.triangles[1].z], glm::vec2(0, 1));
+}
+
+// If this fails, things stand at the wrong place.
+TEST(Gltf, ComposesTheHierarchy) {
+    GltfModel model;
+    const int leaf = model.addTriangle();
+    model.json["nodes"][static_cast<std::size_t>(leaf)]["translation"] = {1, 0, 0};
+    const float h = std::sqrt(0.5f);
+    model.json["nodes"].push_back({{"name", "turned"}, {"rotation", {0, 0, h, h}}, {"scale", {2, 2, 2}}, {"children", {leaf}}});          // 1: 90 degrees about +Z
+    model.json["nodes"].push_back({{"name", "moved"}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1}}, {"children", {1}}});  // 2
+    model.json["scenes"][0]["nodes"] = {2};
+    const Scene scene = load(model);
+    ASSERT_EQ(scene.nodes.size(), 3u);
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) EXPECT_TRUE(scene.nodes[i].parent == none || scene.nodes[i].parent < i);
+    const glm::mat4 world = scene.nodeMatrices(0)[scene.instances[0].node];
+    expectNear(glm::vec3(world * glm::vec4(0, 0, 0, 1)), {10, 22, 30});
+    expectNear(glm::vec3(world * glm::vec4(1, 0, 0, 1)), {10, 24, 30});
+    expectNear(glm::vec3(world * glm::vec4(0, 1, 0, 1)), {8, 22, 30});
+}
+
+// If this fails, a level of detail stands beside its mesh, or in its place.
+TEST(Gltf, BuildsChainsFromNodeLevels) {
+    GltfModel model;
+    const int fine = model.addMesh({{"attributes", {{"POSITION", model.positions(square)}}}, {"indices", model.indices({0, 1, 2, 0, 2, 3})}});
+    const int coarse = model.addTriangle();
+    model.json["scenes"][0]["nodes"] = {fine, coarse};  // listed though it should not be
+    model.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {coarse};
+    model.json["nodes"][0]["extras"]["lod_error"] = {0, 0.25};
+    model.json["nodes"][0]["translation"] = {5, 0, 0};
+    model.json["nodes"][1]["translation"] = {5, 1, 0};  // one up, relative to the finest
+    model.json["extensionsUsed"] = {"MSFT_lod"};
+    const Scene scene = load(model);
+    ASSERT_EQ(scene.instances.size(), 1u);
+    ASSERT_EQ(scene.meshes[0].levels.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].levels[0].triangles.size(), 2u);
+    EXPECT_EQ(scene.meshes[0].levels[1].triangles.size(), 1u);
+    EXPECT_FLOAT_EQ(scene.meshes[0].levels[1].error, 0.25f);
+    expectNear(scene.meshes[0].levels[1].positions[0], {0, 1, 0});
+}
+
+// If this fails, two nodes of one mesh store its triangles twice.
+TEST(Gltf, SharesMeshesBetweenNodes) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["nodes"].push_back({{"mesh", 0}, {"name", "second"}});
+    model.json["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = load(model);
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    EXPECT_EQ(scene.instances[1].name, "second");
+}
+
+// If this fails, EXT_mesh_gpu_instancing shows one thing instead of many.
+TEST(Gltf, PlacesGpuInstances) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", model.positions({1, 0, 0, 0, 2, 0})}, {"SCALE", model.positions({1, 1, 1, 3, 3, 3})}};
+    const Scene scene = load(model);
+    ASSERT_EQ(scene.instances.size(), 2u);
+    expectNear(glm::vec3(scene.nodeMatrices(0)[scene.instances[1].node] * glm::vec4(1, 0, 0, 1)), {3, 2, 0});
+}
+
+// If this fails, normal maps are lit from the wrong side. The picture's u runs along +X, its v (downwards) along -Y.
+TEST(Gltf, MakesTangentsAndSplitsMirroredVertices) {
+    MeshLevel level;
+    level.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+    level.normals.assign(6, {0, 0, 1});
+    level.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}, {0, 1}, {0, 0}};  // the right square shows the picture mirrored
+    level.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    makeTangents(level, {});
+    ASSERT_EQ(level.positions.size(), 8u);  // vertices 1 and 2 are split
+    for (const glm::vec4 t : {level.tangents[0], level.tangents[1]}) {
+        expectNear(glm::vec3(t), {1, 0, 0});
+        EXPECT_EQ(t.w, 1);
+    }
+    for (const std::uint32_t v : {level.triangles[2].x, level.triangles[2].y}) {
+        expectNear(glm::vec3(level.tangents[v]), {-1, 0, 0});
+        EXPECT_EQ(level.tangents[v].w, -1);
+    }
+}
+
+// If this fails, rotated textures turn the wrong way. The numbers are those of Khronos' TextureTransformTest: the arrow's tip is at
+// uv (0.778, 0.778) of the picture; turned by 22.5 degrees it must be seen at (0.421, 1.016), not at (1.016, 0.421).
+TEST(Gltf, TransformsTextureCoordinates) {
+    const glm::vec2 uv = transformUv({.rotation = 0.39269908f}, {0.5f - 0.0790482f, 0.5f + 0.5162675f});
+    EXPECT_NEAR(uv.x, 0.5 + 0.2778175, 1e-4);
+    EXPECT_NEAR(uv.y, 0.5 + 0.2778175, 1e-4);
+    const glm::vec2 scaled = transformUv({.offset = {0.25f, -1}, .scale = {2, 3}}, {1, 1});
+    EXPECT_NEAR(scaled.x, 2.25, 1e-6);
+    EXPECT_NEAR(scaled.y, 2, 1e-6);
+}
+
+// If this fails, glass, lamps and cut-outs look like plaster.
+TEST(Gltf, ReadsMaterialExtensions) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["materials"] = {{{"name", "glass"},
+                                {"emissiveFactor", {1, 0.5, 0}},
+                                {"alphaMode", "MASK"},
+                                {"alphaCutoff", 0.3},
+                                {"doubleSided", true},
+                                {"extensions",
+                                 {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}},
+                                  {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
+                                  {"KHR_materials_ior", {{"ior", 1.33}}},
+                                  {"KHR_materials_clearcoat", json::object()},
+                                  {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 1}}}}}}}};
+    model.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+    const Scene scene = load(model);
+    const Material& glass = scene.materials[0];
+    expectNear(glass.emission, {4, 2, 0});
+    EXPECT_EQ(glass.alphaMode, AlphaMode::mask);
+    EXPECT_FLOAT_EQ(glass.alphaCutoff, 0.3f);
+    EXPECT_TRUE(glass.doubleSided);
+    EXPECT_FLOAT_EQ(glass.transmission, 0.9f);
+    EXPECT_FLOAT_EQ(glass.ior, 1.33f);
+    EXPECT_TRUE(glass.solid);
+    EXPECT_FLOAT_EQ(glass.attenuationDistance, 2);
+    EXPECT_TRUE(hasNote(scene, "ignored: KHR_materials_clearcoat"));
+}
+
+// If this fails, lights shine elsewhere and the camera of the file isn't used.
+TEST(Gltf, ReadsLightsAndTheFirstPerspectiveCamera) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    model.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}, {"color", {1, 0, 0}}, {"intensity", 7}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}}};
+    model.json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}},
+                             {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
+    model.json["nodes"].push_back({{"camera", 0}});
+    model.json["nodes"].push_back({{"camera", 1}, {"translation", {0, 0, 4}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    model.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene scene = loadScene(model.write(folder() / "camera.gltf"));
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.lights[0].type, LightType::spot);
+    EXPECT_FLOAT_EQ(scene.lights[0].outerCone, 0.2f);
+    EXPECT_TRUE(hasNote(scene, "orthographic"));
+    const CameraKey camera = scene.cameraAt(0);
+    EXPECT_FLOAT_EQ(camera.fovy, 0.5f);
+    expectNear(camera.position, {0, 0, 4});
+    expectNear(glm::normalize(camera.target - camera.position), {0, 0, -1});
+    EXPECT_NEAR(camera.focus, 4, 1e-4);  // the triangle is in focus
+}
+
+struct Damage {
+    const char* what;
+    void (*apply)(GltfModel&);
+    const char* expected;
+};
+
+// If one of these fails, a broken file crashes the program or is believed. Each expected text holds the JSON pointer.
+TEST(Gltf, RefusesWhatWouldBeReadOutOfBounds) {
+    const Damage damages[] = {
+        {"index past the vertices", [](GltfModel& m) { m.addMesh({{"attributes", {{"POSITION", m.positions(square)}}}, {"indices", m.indices({0, 1, 4})}}); }, "/meshes/0/primitives/0/indices: index 4 (at 2 of 3) is past the 4 vertices"},
+        {"no such accessor", [](GltfModel& m) { m.addMesh({{"attributes", {{"POSITION", 9}}}}); }, "/meshes/0/primitives/0/attributes/POSITION: there is no accessor 9"},
+        {"count past the view", [](GltfModel& m) { m.addTriangle(); m.json["accessors"][0]["count"] = 4; }, "/accessors/0: 4 elements of 12 bytes"},
+        {"count that overflows", [](GltfModel& m) { m.addTriangle(); m.json["accessors"][0]["count"] = 0x1555555555555557; }, "/accessors/0"},
+        {"offset past the view", [](GltfModel& m) { m.addTriangle(); m.json["accessors"][0]["byteOffset"] = 40; }, "from byte 40 on leave"},
+        {"view past the buffer", [](GltfModel& m) { m.addTriangle(); m.json["bufferViews"][0]["byteOffset"] = 4; }, "/bufferViews/0: bytes 4 to 40"},
+        {"view of no buffer", [](GltfModel& m) { m.addTriangle(); m.json["bufferViews"][0]["buffer"] = 3; }, "/bufferViews/0/buffer: there is no buffer 3"},
+        {"no such view", [](GltfModel& m) { m.addTriangle(); m.json["accessors"][0]["bufferView"] = 7; }, "/bufferViews/7: there is no buffer view 7"},
+        {"stride below the element", [](GltfModel& m) { m.addTriangle(); m.json["bufferViews"][0]["byteStride"] = 8; }, "stride of 8"},
+        {"attributes of different counts", [](GltfModel& m) { m.addMesh({{"attributes", {{"POSITION", m.positions(square)}, {"NORMAL", m.positions({0, 0, 1})}}}}); }, "NORMAL has 1 elements, POSITION has 4"},
+        {"float indices", [](GltfModel& m) { const int p = m.positions(square); m.addMesh({{"attributes", {{"POSITION", p}}}, {"indices", m.accessor(std::vector<float>{0, 1, 2}, 5126, "SCALAR", 1)}}); }, "indices must be unsigned"},
+        {"no such mesh", [](GltfModel& m) { m.addTriangle(); m.json["nodes"][0]["mesh"] = 5; }, "/nodes/0/mesh: there is no mesh 5"},
+        {"no such material", [](GltfModel& m) { m.addTriangle(); m.json["meshes"][0]["primitives"][0]["material"] = 2; }, "/meshes/0/primitives/0/material: there is no material 2"},
+        {"no such texture", [](GltfModel& m) { m.addTriangle(); m.json["materials"][0]["normalTexture"]["index"] = 1; }, "/materials/0/normalTexture: there is no texture 1"},
+        {"cycle", [](GltfModel& m) { m.addTriangle(); m.json["nodes"].push_back({{"children", {2}}}); m.json["nodes"].push_back({{"children", {1}}}); }, "among its own descendants"},
+        {"two parents", [](GltfModel& m) { m.addTriangle(); m.json["nodes"].push_back({{"children", {0}}}); m.json["nodes"].push_back({{"children", {0}}}); }, "/nodes/2/children/0: node 0 is a child of node 1 too"},
+        {"no such child", [](GltfModel& m) { m.addTriangle(); m.json["nodes"][0]["children"] = {8}; }, "/nodes/0/children/0: there is no node 8"},
+        {"level of itself", [](GltfModel& m) { m.addTriangle(); m.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {0}; }, "coarser level of itself"},
+        {"required extension", [](GltfModel& m) { m.addTriangle(); m.json["extensionsRequired"] = {"KHR_draco_mesh_compression", "X_y"}; }, "the model needs extension KHR_draco_mesh_compression, which is not supported"},
+        {"old version", [](GltfModel& m) { m.addTriangle(); m.json["asset"]["version"] = "1.0"; }, "glTF version \"1.0\" is not supported"},
+        {"newer version needed", [](GltfModel& m) { m.addTriangle(); m.json["asset"]["minVersion"] = "2.1"; }, "it needs glTF 2.1"},
+        {"missing image", [](GltfModel& m) { m.addTriangle(); m.json["images"] = {{{"uri", "no%20such.png"}}}; m.json["textures"] = {{{"source", 0}}}; m.json["materials"][0]["emissiveTexture"]["index"] = 0; }, "no such.png\" is missing"},
+        {"sparse index past the count", [](GltfModel& m) {
+             m.addTriangle();
+             const int i = m.accessor(std::vector<std::uint8_t>{3}, 5121, "SCALAR", 1), v = m.positions({0, 0, 0});
+             m.json["accessors"][0]["sparse"] = {{"count", 1}, {"indices", {{"bufferView", i}, {"componentType", 5121}}}, {"values", {{"bufferView", v}}}};
+         }, "sparse index 3 is past the 3 elements"},
+        {"zeros without end", [](GltfModel& m) { m.addTriangle(); m.json["accessors"][0].erase("bufferView"); m.json["accessors"][0]["count"] = 1000000000000; }, "too many to be meant"},
+    };
+    for (const Damage& damage : damages) {
+        GltfModel model;
+        damage.apply(model);
+        EXPECT_NE(refusal(model).find(damage.expected), std::string::npos) << damage.what << " gave: " << refusal(model);
+    }
+}
+
+// If this fails, people mend one mistake at a time and do not learn where it is.
+TEST(Gltf, ReportsAllProblemsWithTheirPlaces) {
+    GltfModel model;
+    model.addMesh({{"attributes", {{"POSITION", 9}}}});
+    model.addMesh({{"attributes", {{"POSITION", 8}}}});
+    try {
+        load(model);
+        FAIL() << "it was loaded";
+    } catch (const Error& error) {
+        ASSERT_EQ(error.problems().size(), 2u);
+        EXPECT_GT(error.problems()[0].where.line, 1);
+        EXPECT_LT(error.problems()[0].where.line, error.problems()[1].where.line);
+    }
+}
+
+// If this fails, a folder cloned without git-lfs is called damaged instead of unfetched.
+TEST(Gltf, NamesGitLfsPointers) {
+    GltfModel model;
+    model.addTriangle();
+    model.bytes().clear();
+    model.json["buffers"] = {{{"byteLength", 36}, {"uri", "data.bin"}}};
+    writeFile(folder() / "data.bin", std::string_view("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 36\n"));
+    EXPECT_NE(refusal(model).find("data.bin: is a git-lfs pointer, not the file itself"), std::string::npos) << refusal(model);
+}
+
+}  // namespace
+}  // namespace lodestir

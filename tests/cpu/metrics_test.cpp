@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Error metrics against values computed by hand.
+#include <framework/core/error.h>
+#include <framework/image/metrics.h>
+#include <framework/image/srgb.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lodestir {
+namespace {
+
+const MetricOptions asIs{.exposure = 1.0};
+
+ImageData gray(std::vector<float> values) { return {static_cast<int>(values.size()), 1, 1, std::move(values)}; }
+
+TEST(Metrics, HandComputedOnGrey) {
+    const ImageData x = gray({1, 2, 0, 0.5f}), r = gray({1, 1, 0.5f, 0});
+    EXPECT_DOUBLE_EQ(evaluate("mse", x, r), (0 + 1 + 0.25 + 0.25) / 4);
+    EXPECT_DOUBLE_EQ(evaluate("rmse", x, r), std::sqrt(0.375));
+    EXPECT_DOUBLE_EQ(evaluate("mae", x, r), (0 + 1 + 0.5 + 0.5) / 4);
+    EXPECT_DOUBLE_EQ(evaluate("relmse", x, r, asIs), (1 / 1.01 + 0.25 / 0.26 + 0.25 / 0.01) / 4);
+    EXPECT_DOUBLE_EQ(evaluate("mape", x, r, asIs), 100 * (1 / 1.01 + 0.5 / 0.51 + 0.5 / 0.01) / 4);
+    EXPECT_DOUBLE_EQ(evaluate("smape", x, r, asIs), (1 / 3.01 + 0.5 / 0.51 + 0.5 / 0.51) / 4);
+    EXPECT_DOUBLE_EQ(evaluate("bias", x, r), 3.5 / 2.5 - 1);
+    const double a = static_cast<double>(encodeSrgb(0.5f));  // 2 is shown as 1
+    EXPECT_NEAR(evaluate("psnr", x, r), -10 * std::log10(2 * a * a / 4), 1e-12);
+}
+
+// If this fails, RelMSE divides each channel by itself, or by a luminance, and no longer is what its definition says.
+TEST(Metrics, RelMseDividesByTheMeanOfThePixel) {
+    const ImageData x{1, 1, 3, {1, 2, 3}}, r{1, 1, 3, {1, 0, 0.5f}};
+    EXPECT_DOUBLE_EQ(evaluate("relmse", x, r, asIs), (0 + 4 + 6.25) / 3 / (0.5 * 0.5 + 0.01));
+    EXPECT_DOUBLE_EQ(evaluate("mse", x, r), 10.25 / 3);
+    EXPECT_DOUBLE_EQ(evaluate("mae", x, r), 4.5 / 3);
+}
+
+TEST(Metrics, ExposureBringsTheMedianTo018) {
+    EXPECT_DOUBLE_EQ(exposureOf(gray({0, 0, 0, 1, 2, 4})), 0.18 / 2);  // pixels of 0 don't count; upper median of the others
+    EXPECT_FLOAT_EQ(static_cast<float>(exposureOf({1, 1, 3, {1, 2, 3}})), static_cast<float>(0.18 / (0.2126 + 2 * 0.7152 + 3 * 0.0722)));
+    EXPECT_DOUBLE_EQ(exposureOf(gray({0, 0, -1})), 1);
+    EXPECT_DOUBLE_EQ(exposureOf(gray({std::nanf(""), std::numeric_limits<float>::infinity(), 2})), 0.09);
+    const ImageData x = gray({1, 2, 3}), r = gray({1, 1, 2});
+    EXPECT_DOUBLE_EQ(evaluate("relmse", x, r), evaluate("relmse", x, r, {.exposure = 0.18}));
+    // Brightness alone must not change a relative error.
+    const ImageData brightX = gray({64, 128, 192}), brightR = gray({64, 64, 128});
+    for (const char* name : {"relmse", "relmse_trimmed", "mape", "smape", "bias"}) {
+        EXPECT_NEAR(evaluate(name, x, r), evaluate(name, brightX, brightR), 1e-12) << name;
+    }
+    EXPECT_DOUBLE_EQ(evaluate("relmse", gray({1.1f}), gray({1})),
+                     std::pow(0.18 * (static_cast<double>(1.1f) - 1), 2) / (0.18 * 0.18 + 0.01));
+}
+
+TEST(Metrics, TrimmingDropsOnePixelInAThousand) {
+    ImageData x = gray(std::vector<float>(2500, 2)), r = gray(std::vector<float>(2500, 1));
+    const double usual = evaluate("relmse", x, r, asIs);
+    x.values[7] = 1e6f;
+    x.values[99] = 1e6f;
+    EXPECT_GT(evaluate("relmse", x, r, asIs), 1e6);
+    EXPECT_NEAR(evaluate("relmse_trimmed", x, r, asIs), usual, 1e-12) << "2500 pixels have two to spare";
+    x.values[100] = 1e6f;
+    EXPECT_GT(evaluate("relmse_trimmed", x, r, asIs), 1e6);
+    x.values[100] = std::nanf("");
+    EXPECT_TRUE(std::isnan(evaluate("relmse_trimmed", x, r, asIs))) << "a broken pixel is no outlier";
+}
+
+TEST(Metrics, EqualImagesAreAtZero) {
+    const ImageData r{2, 1, 3, {1, 2, 3, 0, 0, 0}};
+    for (const std::string& name : metricNames()) {
+        EXPECT_EQ(evaluate(name, r, r), name == "psnr" ? std::numeric_limits<double>::infinity() : 0) << name;
+        EXPECT_GT(metricAbout(name).size(), 10u);
+    }
+}
+
+TEST(Metrics, BrokenPixelsShow) {
+    const ImageData r = gray({1, 1}), x = gray({1, std::nanf("")});
+    for (const std::string& name : metricNames()) EXPECT_TRUE(std::isnan(evaluate(name, x, r))) << name;
+}
+
+TEST(Metrics, MapsHoldWhatIsAveraged) {
+    const ImageData x{2, 1, 3, {1, 2, 3, 4, 4, 4}}, r{2, 1, 3, {1, 0, 0.5f, 4, 4, 4}};
+    const ImageData map = errorMap("mse", x, r);
+    ASSERT_EQ(map.channels, 1);
+    ASSERT_EQ(map.width, 2);
+    EXPECT_FLOAT_EQ(map.at(0, 0, 0), 10.25f / 3);
+    EXPECT_EQ(map.at(1, 0, 0), 0);
+    EXPECT_EQ(errorMap("bias", gray({0, 3}), gray({1, 1})).values, (std::vector<float>{-1, 2}));
+}
+
+TEST(Metrics, RefuseWhatCannotBeCompared) {
+    const auto refusal = [](const char* name, const ImageData& x, const ImageData& r) {
+        try {
+            evaluate(name, x, r);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal("mse", makeImage(4, 3, 3), makeImage(5, 3, 1)),
+              "the images cannot be compared: the test has 4 x 3 pixels of 3 channels, the reference 5 x 3 pixels of 1 channels");
+    EXPECT_EQ(refusal("mse", makeImage(0, 0, 3), makeImage(0, 0, 3)), "the images cannot be compared: they have no pixels");
+    EXPECT_EQ(refusal("relsme", makeImage(1, 1, 1), makeImage(1, 1, 1)), "unknown metric \"relsme\"; did you mean \"relmse\"?");
+}
+
+}  // namespace
+}  // namespace lodestir

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Models that other people made render, given directly on the command line.
+#include "program.h"
+
+namespace lodestir::test {
+namespace {
+
+class Models : public ProgramTest {
+protected:
+    void SetUp() override {
+        if (!std::filesystem::is_directory(assetFolder)) GTEST_SKIP() << "no models at " << assetFolder << ", so nothing was rendered";
+    }
+    ImageData render(const std::string& name, const Arguments& more = {}) {
+        SCOPED_TRACE(name);
+        Arguments arguments{"--scene", (assetFolder / "models" / name).string(), "--size", "64x36", "--frames", "1", "--show", "trace.color", "--check-nan"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Path out = run("out", sourceFolder / "graphs/path_tracer.json", arguments);
+        return HasFailure() ? makeImage(64, 36, 3) : readExr(out / "trace.color.0.exr");
+    }
+};
+
+TEST_F(Models, Render) {
+    for (const char* name : {"DamagedHelmet/glTF/DamagedHelmet.gltf", "Avocado/glTF/Avocado.gltf", "CornellBox-bevy/CornellBox.glb",
+                             "BoxTexturedNonPowerOfTwo/BoxTexturedNonPowerOfTwo.gltf", "BoxInterleaved/BoxInterleaved.gltf", "BoxVertexColors/BoxVertexColors.gltf",
+                             "AlphaMask/01_alpha_mask.gltf", "AlphaBlend/01_alpha_blend.gltf", "SphereLights/sphere_lights.gltf", "SimpleInstancing/simple-instancing.glb",
+                             "CesiumMilkTruck/glTF/CesiumMilkTruck.gltf", "TriangleWithoutIndices-embedded/TriangleWithoutIndices.gltf"}) {
+        const ImageData image = render(name);
+        EXPECT_TRUE(allFinite(image)) << name;
+        EXPECT_GT(meanOf(image), 1e-4) << name << " is black";
+        const auto [low, high] = std::ranges::minmax(image.values);
+        EXPECT_GT(high - low, 1e-3f) << name << " shows nothing";
+    }
+}
+
+// If this fails, containers are read differently: the same model as .gltf, with data URIs, and as .glb.
+TEST_F(Models, ThreeContainersOfOneModelGiveOneImage) {
+    const ImageData separate = render("CesiumMan/glTF/CesiumMan.gltf"), embedded = render("CesiumMan-embedded/CesiumMan.gltf"), binary = render("CesiumMan-glb/CesiumMan.glb");
+    EXPECT_EQ(separate.values, embedded.values);
+    EXPECT_EQ(separate.values, binary.values);
+}
+
+// If this fails, animated nodes stand still.
+TEST_F(Models, AnimatedNodesMove) {
+    const Path out = run("moving", sourceFolder / "passes/visibility/visibility.json",
+                         {"--scene", (assetFolder / "models/BoxAnimated/BoxAnimated.gltf").string(), "--size", "64x36", "--frames", "40", "--last", "--show", "hits.motion",
+                          "--dump", "hits.normal"});
+    const ImageData motion = readExr(out / "hits.motion.39.exr");
+    EXPECT_TRUE(std::ranges::any_of(motion.values, [](float v) { return std::abs(v) > 1e-3f; }));
+}
+
+}  // namespace
+}  // namespace lodestir::test

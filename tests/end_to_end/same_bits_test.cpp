@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// The same seed on the same device gives the same image, bit for bit; another seed, another one.
+#include "program.h"
+
+namespace lodestir::test {
+namespace {
+
+class SameBits : public ProgramTest {
+protected:
+    /// All image files of a run of the path tracer, by name.
+    std::map<std::string, std::string> images(const std::string& out, const std::string& scene, const Arguments& more) {
+        Arguments arguments{"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "96x54", "--frames", "3", "--show", "trace.color", "--dump", "display"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const Path results = run(out, sourceFolder / "graphs/path_tracer.json", arguments);
+        std::map<std::string, std::string> files;
+        for (const std::string& name : filesOf(results))
+            if (name != "run.json") files[name] = readText(results / name);
+        return files;
+    }
+
+    void holdsFor(const std::string& scene) {
+        const auto first = images("first", scene, {"--seed", "5"}), second = images("second", scene, {"--seed", "5"});
+        ASSERT_EQ(first.size(), 9u);
+        ASSERT_EQ(second.size(), first.size());
+        for (const auto& [name, bytes] : first) {
+            EXPECT_TRUE(second.at(name) == bytes) << name << " differs between two processes";
+        }
+        const ImageData five = readExr(folder / "first/trace.color.0.exr"), next = readExr(folder / "first/trace.color.1.exr");
+        EXPECT_NE(five.values, next.values) << "frames must not repeat their random numbers";
+        images("other", scene, {"--seed", "6"});
+        const ImageData six = readExr(folder / "other/trace.color.0.exr");
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < five.values.size(); ++i) same += five.values[i] == six.values[i];
+        EXPECT_LT(same, five.values.size() / 2) << "another seed must give other noise";
+        EXPECT_NEAR(meanOf(six) / meanOf(five), 1, 0.5) << "of the same picture";
+    }
+};
+
+TEST_F(SameBits, Rock) { holdsFor("rock.json"); }
+TEST_F(SameBits, GlossyCornellBox) { holdsFor("cornell_glossy.json"); }
+
+// Whatever order the driver runs workgroups in, a pixel's sum has one order.
+TEST_F(SameBits, WithABarrierBeforeEveryPass) {
+    EXPECT_TRUE(images("few", "cornell_glossy.json", {}) == images("all", "cornell_glossy.json", {"--all-barriers"})) << "a barrier is missing";
+}
+
+}  // namespace
+}  // namespace lodestir::test
