@@ -42,3 +42,7 @@ endforeach()
 string(SHA256 hash "${identity}")
 string(SUBSTRING ${hash} 0 16 LODESTIR_ABI)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})
+
+# For passes that are built by hand, outside this tree: g++ ... -include <build>/include/lodestir/abi.h
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/lodestir/abi.h
+    CONTENT "// Names what this framework was built from; see cmake/abi.cmake.\n#pragma once\n#define LODESTIR_ABI \"@LODESTIR_ABI@\"\n" @ONLY)

@@ -24,7 +24,7 @@ using namespace lodestir;
 
 namespace {
 
-constexpr int skipped = 77;             // what ctest takes for "skipped"
+constexpr int skipped = 77;              // what ctest takes for "skipped"
 constexpr std::size_t shownPerLine = 4;  // failures printed of one line
 constexpr std::uint32_t mostRuns = 16;   // failures looked up of one invocation
 
@@ -66,10 +66,13 @@ Directives readDirectives(const Path& path, const std::string& text) {
         for (std::uint32_t value; words >> value;) numbers.push_back(value);
         const std::size_t most = isGroups ? 3 : 1;
         if (numbers.empty() || numbers.size() > most || !words.eof() || std::ranges::count(numbers, 0u) > 0)
-            problems.add({path.string(), number, 0}, "not a directive",
-                         isGroups ? "write // groups: followed by one to three positive numbers" : "write // passes: followed by a positive number");
-        else if (isGroups) std::ranges::copy(numbers, directives.groups.begin());
-        else directives.passes = numbers[0];
+            problems.add(
+                {path.string(), number, 0}, "not a directive",
+                isGroups ? "write // groups: followed by one to three positive numbers" : "write // passes: followed by a positive number");
+        else if (isGroups)
+            std::ranges::copy(numbers, directives.groups.begin());
+        else
+            directives.passes = numbers[0];
     }
     problems.raise();
     return directives;
@@ -79,10 +82,10 @@ std::string valueText(std::uint32_t kind, std::uint64_t bits) {
     const auto asFloat = std::bit_cast<float>(static_cast<std::uint32_t>(bits));
     if (kind >= real && std::isnan(asFloat)) return "nan";  // whatever its sign
     switch (kind) {
-        case boolean: return bits ? "true" : "false";
-        case integer: return fmt::format("{}", static_cast<std::int64_t>(bits));
-        case natural: return fmt::format("{}", bits);
-        default: return fmt::format("{}", asFloat);  // the shortest text that tells it from its neighbours
+    case boolean: return bits ? "true" : "false";
+    case integer: return fmt::format("{}", static_cast<std::int64_t>(bits));
+    case natural: return fmt::format("{}", bits);
+    default: return fmt::format("{}", asFloat);  // the shortest text that tells it from its neighbours
     }
 }
 
@@ -98,12 +101,15 @@ std::string failureText(const Failure& failure, const std::string& file) {
 // Prints the failures in the order of their lines, the first few of each line.
 void printFailures(std::vector<Failure> failures, const std::vector<Path>& files) {
     const auto place = [](const Failure& f) { return std::pair(f.text, f.line); };
-    std::ranges::sort(failures, {}, [&](const Failure& f) { return std::tuple(place(f), f.invocation[2], f.invocation[1], f.invocation[0], f.component); });
+    std::ranges::sort(failures, {}, [&](const Failure& f) {
+        return std::tuple(place(f), f.invocation[2], f.invocation[1], f.invocation[0], f.component);
+    });
     for (auto first = failures.begin(); first != failures.end();) {
         const auto last = std::find_if(first, failures.end(), [&](const Failure& f) { return place(f) != place(*first); });
         const std::string file = first->text < files.size() ? files[first->text].filename().string() : fmt::format("text {}", first->text);
         const auto count = static_cast<std::size_t>(last - first);
-        for (auto f = first; f != first + static_cast<std::ptrdiff_t>(std::min(count, shownPerLine)); ++f) fmt::print("{}\n", failureText(*f, file));
+        for (auto f = first; f != first + static_cast<std::ptrdiff_t>(std::min(count, shownPerLine)); ++f)
+            fmt::print("{}\n", failureText(*f, file));
         if (count > shownPerLine) fmt::print("{}:{}: and {} more\n", file, first->line, count - shownPerLine);
         first = last;
     }

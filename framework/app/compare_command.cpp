@@ -88,6 +88,7 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
     command->add_option("REFERENCE", arguments->reference, "image to judge it by")->required();
     command->add_option("--metrics", arguments->metrics, "names, separated by commas (all)")
         ->delimiter(',')
+        ->allow_extra_args(false)  // what follows may be TEST
         ->check([](const std::string& name) {
             const std::vector<std::string> names = metricNames();
             const bool isKnown = std::ranges::find(names, name) != names.end();

@@ -49,9 +49,11 @@ Json toJson(const gpu::DeviceFacts& facts, bool chosen) {
 
 void print(const gpu::DeviceFacts& facts, bool chosen) {
     fmt::print("{} {}: {} ({}){}\n", chosen ? '*' : ' ', facts.index, facts.name, facts.type,
-               chosen ? "  <- chosen" : facts.usable() ? "" : "  cannot be used");
-    fmt::print("     {} {}, Vulkan {}, {} lanes a subgroup, {:.1f} GiB\n", facts.driver, facts.driverVersion, facts.apiVersion, facts.subgroupSize,
-               static_cast<double>(facts.memoryBytes) / (1 << 30));
+               chosen           ? "  <- chosen"
+               : facts.usable() ? ""
+                                : "  cannot be used");
+    fmt::print("     {} {}, Vulkan {}, {} lanes a subgroup, {:.1f} GiB\n", facts.driver, facts.driverVersion, facts.apiVersion,
+               facts.subgroupSize, static_cast<double>(facts.memoryBytes) / (1 << 30));
     for (const gpu::Feature& feature : facts.features) {
         std::string without;
         if (!feature.present) without = feature.required ? "  needed" : "  instead: " + feature.fallback;
@@ -70,8 +72,10 @@ int listDevices(const Options& options) {
     }
     Json list = Json::array();
     for (std::size_t i = 0; i < devices.size(); ++i) {
-        if (options.json) list.push(toJson(devices[i], chosen == i));
-        else print(devices[i], chosen == i);
+        if (options.json)
+            list.push(toJson(devices[i], chosen == i));
+        else
+            print(devices[i], chosen == i);
     }
     if (options.json) fmt::print("{}\n", list.dump());
     if (refusal) log::warn("{}", refusal->what());

@@ -36,6 +36,9 @@ int runProgram(int argc, char** argv) {
     }
     try {
         return run();
+    } catch (const CLI::ParseError& error) {  // found wrong only when the command looked closer
+        app.exit(error);
+        return 2;
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
     } catch (const std::exception& error) {

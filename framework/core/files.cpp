@@ -114,8 +114,8 @@ std::vector<std::byte> readBytes(const Path& path) { return readWhole<std::vecto
 
 void writeAside(const Path& path, const std::function<void(const Path& aside)>& write) {
     std::error_code none;
-    const Path target =
-        fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;  // what the link means is replaced, not the link
+    // What a link means is replaced, not the link.
+    const Path target = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
     const fs::file_status status = fs::status(target, none);
     if (fs::is_directory(status)) throw Error(Where{path.string()}, "cannot be written: it is a folder");
     if (fs::exists(status) && !fs::is_regular_file(status)) {  // devices and pipes such as /dev/null must not be renamed over

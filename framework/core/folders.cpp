@@ -75,9 +75,9 @@ Path sceneFolder() {
 
 Path cacheFolder(std::string_view kind) {
     if (const Path chosen = environment("LODESTIR_CACHE"); !chosen.empty()) {
-        if (!canUse(chosen / kind))
-            throw Error(Where{(chosen / kind).string()}, "the cache folder cannot be written", "check LODESTIR_CACHE");
-        return chosen / kind;
+        const Path folder = chosen / kind;
+        if (!canUse(folder)) throw Error(Where{folder.string()}, "the cache folder cannot be written", "check LODESTIR_CACHE");
+        return folder;
     }
     const Path xdg = environment("XDG_CACHE_HOME"), home = environment("HOME");
     if (xdg.is_absolute() && canUse(xdg / "lodestir" / kind)) return xdg / "lodestir" / kind;

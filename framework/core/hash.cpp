@@ -12,7 +12,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "words are read as they lie; the same content must have the same name everywhere");
 
-// Odd constants from the fractional parts of the golden ratio and of square roots: multiplying by them is a bijection that spreads low bits.
+// Odd constants from the fractional parts of the golden ratio and of square roots: multiplying by them is a bijection that spreads low
+// bits upwards.
 constexpr std::uint64_t golden = 0x9e3779b97f4a7c15ull, root2 = 0x6a09e667f3bcc909ull, root3 = 0xbb67ae8584caa73bull,
                         root5 = 0x3c6ef372fe94f82bull;
 

@@ -261,8 +261,9 @@ private:
             text += meanings[i];
             return;
         }
-        if (c != 'u')
+        if (c != 'u') {
             fail(start, "expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u after '\\', found " + found(), "a backslash itself is \\\\");
+        }
         step();
         unsigned code = readHex();
         if (code >= 0xD800 && code <= 0xDBFF) {  // the first half of a surrogate pair (RFC 8259, section 7)
@@ -299,8 +300,9 @@ private:
         bool integer = true;
         accept('-');
         if (accept('0')) {
-            if (isDigit(peek()))
+            if (isDigit(peek())) {
                 fail(value.where_, "expected no digits after a leading 0", "JSON numbers are decimal, without leading zeros");
+            }
         } else {
             readDigits("after '-'");
         }

@@ -28,7 +28,7 @@ public:
     VkBuffer handle() const { return buffer_; }
     VkDeviceAddress address() const { return address_; }  ///< aligned to 256 bytes
     std::size_t size() const { return size_; }
-    std::byte* mapped() const { return mapped_; }         ///< nullptr for Memory::device (unless the device's memory is host-visible anyway)
+    std::byte* mapped() const { return mapped_; }         ///< nullptr for Memory::device, unless the device's memory is the CPU's own
 
 private:
     const Device* device_ = nullptr;

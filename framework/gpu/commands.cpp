@@ -61,11 +61,13 @@ void Commands::dispatch(const Pipeline& pipeline, std::span<const std::byte> pus
     assert(pipeline && push.size() <= pipeline.pushBytes());
     const auto& most = device_->facts().maxGroups;
     if (x > most[0] || y > most[1] || z > most[2])
-        throw Error(fmt::format("a dispatch of {} x {} x {} workgroups; the device allows {} x {} x {}", x, y, z, most[0], most[1], most[2]));
+        throw Error(
+            fmt::format("a dispatch of {} x {} x {} workgroups; the device allows {} x {} x {}", x, y, z, most[0], most[1], most[2]));
     if (x == 0 || y == 0 || z == 0) return;
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
     if (!push.empty())
-        vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()), push.data());
+        vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()),
+                           push.data());
     vkCmdDispatch(commands_, x, y, z);
 }
 
@@ -124,8 +126,8 @@ void Commands::wait() {
     pending_ = false;
     stamps_.resize(nextTimestamp_);
     if (nextTimestamp_ == 0) return;
-    check(vkGetQueryPoolResults(device_->handle(), queries_, 0, nextTimestamp_, stamps_.size() * sizeof stamps_[0], stamps_.data(), sizeof stamps_[0],
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+    check(vkGetQueryPoolResults(device_->handle(), queries_, 0, nextTimestamp_, stamps_.size() * sizeof stamps_[0], stamps_.data(),
+                                sizeof stamps_[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "vkGetQueryPoolResults");
 }
 

@@ -31,7 +31,8 @@ public:
     std::uint32_t timestamp();        ///< index of the written stamp (all earlier work finished); Error beyond maxTimestamps
     void submit();                    ///< ends and submits; returns at once; results are visible to the host after wait()
     void wait();                      ///< until the submission is done; Error when the device is lost
-    double milliseconds(std::uint32_t from, std::uint32_t to) const;  ///< between two stamps of the last finished submission; 0 without timestamps
+    /// Between two stamps of the last finished submission; 0 where the device has no timestamps.
+    double milliseconds(std::uint32_t from, std::uint32_t to) const;
     VkCommandBuffer handle() const { return commands_; }
 
 private:

@@ -31,26 +31,26 @@ constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
 const char* resultName(VkResult result) {
     switch (result) {
-        case VK_NOT_READY: return "VK_NOT_READY";
-        case VK_TIMEOUT: return "VK_TIMEOUT";
-        case VK_INCOMPLETE: return "VK_INCOMPLETE";
-        case VK_SUBOPTIMAL_KHR: return "VK_SUBOPTIMAL_KHR";
-        case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-        case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
-        case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
-        case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
-        case VK_ERROR_LAYER_NOT_PRESENT: return "VK_ERROR_LAYER_NOT_PRESENT";
-        case VK_ERROR_EXTENSION_NOT_PRESENT: return "VK_ERROR_EXTENSION_NOT_PRESENT";
-        case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
-        case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER";
-        case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
-        case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
-        case VK_ERROR_FRAGMENTATION: return "VK_ERROR_FRAGMENTATION";
-        case VK_ERROR_SURFACE_LOST_KHR: return "VK_ERROR_SURFACE_LOST_KHR";
-        case VK_ERROR_OUT_OF_DATE_KHR: return "VK_ERROR_OUT_OF_DATE_KHR";
-        case VK_ERROR_INVALID_SHADER_NV: return "VK_ERROR_INVALID_SHADER_NV";
-        default: return nullptr;
+    case VK_NOT_READY: return "VK_NOT_READY";
+    case VK_TIMEOUT: return "VK_TIMEOUT";
+    case VK_INCOMPLETE: return "VK_INCOMPLETE";
+    case VK_SUBOPTIMAL_KHR: return "VK_SUBOPTIMAL_KHR";
+    case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_LAYER_NOT_PRESENT: return "VK_ERROR_LAYER_NOT_PRESENT";
+    case VK_ERROR_EXTENSION_NOT_PRESENT: return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER";
+    case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    case VK_ERROR_FRAGMENTATION: return "VK_ERROR_FRAGMENTATION";
+    case VK_ERROR_SURFACE_LOST_KHR: return "VK_ERROR_SURFACE_LOST_KHR";
+    case VK_ERROR_OUT_OF_DATE_KHR: return "VK_ERROR_OUT_OF_DATE_KHR";
+    case VK_ERROR_INVALID_SHADER_NV: return "VK_ERROR_INVALID_SHADER_NV";
+    default: return nullptr;
     }
 }
 
@@ -141,8 +141,9 @@ bool DeviceFacts::usable() const {
 void check(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return;
     const char* name = resultName(result);
-    throw Error(fmt::format("{} failed: {}", call, name ? name : fmt::format("VkResult {}", static_cast<int>(result))),
-                result == VK_ERROR_DEVICE_LOST ? "the GPU stopped answering: a shader ran too long or touched memory that isn't its own" : "");
+    throw Error(
+        fmt::format("{} failed: {}", call, name ? name : fmt::format("VkResult {}", static_cast<int>(result))),
+        result == VK_ERROR_DEVICE_LOST ? "the GPU stopped answering: a shader ran too long or touched memory that isn't its own" : "");
 }
 
 std::vector<DeviceFacts> listDevices() {
@@ -163,13 +164,15 @@ std::size_t chooseDevice(const std::vector<DeviceFacts>& devices, const std::str
     const auto [end, parsed] = std::from_chars(choice.data(), choice.data() + choice.size(), wanted);
     const bool isIndex = parsed == std::errc{} && end == choice.data() + choice.size();
     for (std::size_t i = 0; i < devices.size(); ++i)
-        if (isIndex ? devices[i].index == wanted : lowered(devices[i].name).find(lowered(choice)) != std::string::npos) candidates.push_back(i);
+        if (isIndex ? devices[i].index == wanted : lowered(devices[i].name).find(lowered(choice)) != std::string::npos)
+            candidates.push_back(i);
     if (candidates.empty()) throw Error(fmt::format("no device \"{}\"", choice), fmt::format("devices: {}", fmt::join(all, ", ")));
 
     std::erase_if(candidates, [&](std::size_t i) { return !devices[i].usable(); });
     if (candidates.empty())
-        throw Error(choice.empty() ? std::string("no device has all that is needed") : fmt::format("device \"{}\" lacks something needed", choice),
-                    fmt::format("devices: {}", fmt::join(all, ", ")));
+        throw Error(
+            choice.empty() ? std::string("no device has all that is needed") : fmt::format("device \"{}\" lacks something needed", choice),
+            fmt::format("devices: {}", fmt::join(all, ", ")));
     return *std::ranges::min_element(candidates, {}, [&](std::size_t i) { return preference(devices[i]); });
 }
 
@@ -207,7 +210,8 @@ Device::Device(const DeviceOptions& options) : Device(nullptr) {
     physical_ = physicalDevices(instance_)[chosen];
     queueFamily_ = static_cast<std::uint32_t>(findQueueFamily(physical_));
     if (validating_) {
-        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+        const auto create =
+            reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
         check(create(instance_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
     }
 
@@ -245,7 +249,8 @@ Device::~Device() {
     if (allocator_) vmaDestroyAllocator(allocator_);
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_) {
-        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+        const auto destroy =
+            reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
         destroy(instance_, messenger_, nullptr);
     }
     if (instance_) vkDestroyInstance(instance_, nullptr);

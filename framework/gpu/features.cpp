@@ -36,16 +36,23 @@ const std::vector<Row>& rows() {
         {"synchronization2", [](FeatureChain& c) { return &c.v13.synchronization2; }, {}, ""},
         {"maintenance4", [](FeatureChain& c) { return &c.v13.maintenance4; }, {}, ""},
         {"dynamicRendering", [](FeatureChain& c) { return &c.v13.dynamicRendering; }, {}, ""},
-        {"accelerationStructure", [](FeatureChain& c) { return &c.acceleration.accelerationStructure; },
-         {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME}, "rays walk our own BVH"},
-        {"rayQuery", [](FeatureChain& c) { return &c.rayQuery.rayQuery; },
+        {"accelerationStructure",
+         [](FeatureChain& c) { return &c.acceleration.accelerationStructure; },
+         {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME},
+         "rays walk our own BVH"},
+        {"rayQuery",
+         [](FeatureChain& c) { return &c.rayQuery.rayQuery; },
          {VK_KHR_RAY_QUERY_EXTENSION_NAME, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME},
          "rays walk our own BVH"},
-        {"shaderBufferFloat32AtomicAdd", [](FeatureChain& c) { return &c.atomicFloat.shaderBufferFloat32AtomicAdd; },
-         {VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME}, "compare-and-swap loops"},
+        {"shaderBufferFloat32AtomicAdd",
+         [](FeatureChain& c) { return &c.atomicFloat.shaderBufferFloat32AtomicAdd; },
+         {VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME},
+         "compare-and-swap loops"},
         {"shaderFloat64", [](FeatureChain& c) { return &c.core.features.shaderFloat64; }, {}, "sums in pairs of floats"},
         {"runtimeDescriptorArray", [](FeatureChain& c) { return &c.v12.runtimeDescriptorArray; }, {}, "textures are read from buffers"},
-        {"shaderSampledImageArrayNonUniformIndexing", [](FeatureChain& c) { return &c.v12.shaderSampledImageArrayNonUniformIndexing; }, {},
+        {"shaderSampledImageArrayNonUniformIndexing",
+         [](FeatureChain& c) { return &c.v12.shaderSampledImageArrayNonUniformIndexing; },
+         {},
          "textures are read from buffers"},
     };
     return table;
@@ -57,11 +64,11 @@ bool hasAll(const std::set<std::string>& extensions, const std::vector<const cha
 
 const char* typeName(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
-        default: return "other";
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return "discrete";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return "integrated";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return "virtual";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return "cpu";
+    default: return "other";
     }
 }
 
@@ -72,8 +79,8 @@ std::string versionText(std::uint32_t version) {
 // True when every memory type that a device buffer may lie in can be written in place by the CPU, without a slow bus between.
 bool hasUnifiedMemory(const VkPhysicalDeviceMemoryProperties& memory, VkPhysicalDeviceType type) {
     if (type != VK_PHYSICAL_DEVICE_TYPE_CPU && type != VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU) return false;
-    constexpr VkMemoryPropertyFlags inPlace =
-        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    constexpr VkMemoryPropertyFlags inPlace = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     return std::any_of(memory.memoryTypes, memory.memoryTypes + memory.memoryTypeCount,
                        [](const VkMemoryType& t) { return (t.propertyFlags & inPlace) == inPlace; });
 }
@@ -135,7 +142,8 @@ DeviceFacts describeDevice(VkPhysicalDevice physical, int index) {
     DeviceFacts facts;
     facts.index = index;
 
-    VkPhysicalDeviceSubgroupSizeControlProperties sizeControl{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES, nullptr, 0, 0, 0, 0};
+    VkPhysicalDeviceSubgroupSizeControlProperties sizeControl{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES, nullptr, 0, 0, 0, 0};
     VkPhysicalDeviceMaintenance4Properties maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES, nullptr, 0};
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
@@ -186,9 +194,9 @@ DeviceFacts describeDevice(VkPhysicalDevice physical, int index) {
     const auto extensions = deviceExtensions(physical);
     FeatureChain chain;
     if (is13) vkGetPhysicalDeviceFeatures2(physical, chain.link(extensions));
-    constexpr VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT |
-                                                  VK_SUBGROUP_FEATURE_SHUFFLE_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_RELATIVE_BIT |
-                                                  VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
+    constexpr VkSubgroupFeatureFlags operations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_VOTE_BIT |
+                                                  VK_SUBGROUP_FEATURE_BALLOT_BIT | VK_SUBGROUP_FEATURE_SHUFFLE_BIT |
+                                                  VK_SUBGROUP_FEATURE_SHUFFLE_RELATIVE_BIT | VK_SUBGROUP_FEATURE_ARITHMETIC_BIT;
     add("Vulkan 1.3", is13, "");
     add("compute queue", family >= 0, "");
     add("subgroup vote, ballot, shuffle, arithmetic",

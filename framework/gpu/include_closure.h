@@ -13,10 +13,10 @@ namespace lodestir::gpu {
 
 /// One #include line of a text.
 struct Include {
-    int line = 0;                      ///< counted from 1
-    std::size_t begin = 0, end = 0;    ///< of the line in the text, without its line feed
-    std::string name;                  ///< what stands between the quotes or brackets
-    int target = -1;                   ///< index into IncludeClosure::texts(); -1 when there is no such file
+    int line = 0;                    ///< counted from 1
+    std::size_t begin = 0, end = 0;  ///< of the line in the text, without its line feed
+    std::string name;                ///< what stands between the quotes or brackets
+    int target = -1;                 ///< index into IncludeClosure::texts(); -1 when there is no such file
 };
 
 struct ShaderText {

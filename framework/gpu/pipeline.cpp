@@ -32,7 +32,8 @@ Pipeline::Pipeline(const Device& device, const Spirv& spirv, std::span<const Spe
         const auto offset = static_cast<std::uint32_t>(entries.size() * sizeof(Specialization) + offsetof(Specialization, value));
         entries.push_back({constant.id, offset, sizeof constant.value});
     }
-    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(), constants.data()};
+    const VkSpecializationInfo specialization{static_cast<std::uint32_t>(entries.size()), entries.data(), constants.size_bytes(),
+                                              constants.data()};
 
     VkShaderModuleCreateInfo moduleInfo{};
     moduleInfo.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;

@@ -4,7 +4,9 @@
 #include <framework/gpu/device.h>
 #include <framework/gpu/shader.h>
 
+#include <cstdint>
 #include <span>
+#include <string>
 
 namespace lodestir::gpu {
 
@@ -13,7 +15,9 @@ struct Specialization { std::uint32_t id; std::uint32_t value; };  ///< value: b
 class LODESTIR_API Pipeline {
 public:
     Pipeline() = default;
-    Pipeline(const Device& device, const Spirv& spirv, std::span<const Specialization> constants, std::uint32_t pushBytes, const std::string& name);
+    /// `pushBytes` (rounded up to 4) is the size of the push block. The subgroup size is the device's own, facts().subgroupSize.
+    Pipeline(const Device& device, const Spirv& spirv, std::span<const Specialization> constants, std::uint32_t pushBytes,
+             const std::string& name);
     ~Pipeline();
     Pipeline(Pipeline&& other) noexcept;
     Pipeline& operator=(Pipeline&& other) noexcept;

@@ -85,9 +85,11 @@ public:
             static constexpr std::string_view missing = "no such file beside this one or in the include folders,";
             return results_.emplace_back(std::make_unique<IncludeResult>("", missing.data(), missing.size(), nullptr)).get();
         }
-        std::string& text = texts_.emplace_back(std::make_unique<std::string>())->append(given_[index] ? "" : numberedText(closure_, index));
+        std::string& text =
+            texts_.emplace_back(std::make_unique<std::string>())->append(given_[index] ? "" : numberedText(closure_, index));
         given_[index] = true;
-        return results_.emplace_back(std::make_unique<IncludeResult>(closure_.texts()[index].name, text.data(), text.size(), nullptr)).get();
+        return results_.emplace_back(std::make_unique<IncludeResult>(closure_.texts()[index].name, text.data(), text.size(), nullptr))
+            .get();
     }
     void releaseInclude(IncludeResult*) override {}  // all live as long as this object
 
@@ -141,7 +143,9 @@ void report(const char* infoLog, bool failed, const IncludeClosure& closure) {
         const bool isError = line.starts_with("ERROR: "), isWarning = line.starts_with("WARNING: ");
         if (!isError && !isWarning) continue;
         line.remove_prefix(isError ? 7 : 9);
-        if (line.find("compilation errors.") != std::string_view::npos || line.find("'' : compilation terminated") != std::string_view::npos) continue;
+        if (line.find("compilation errors.") != std::string_view::npos ||
+            line.find("'' : compilation terminated") != std::string_view::npos)
+            continue;
         const std::optional<Problem> located = parseMessage(line, closure);
         const Problem problem = located.value_or(Problem{{closure.texts()[0].name, 0, 0}, std::string(line), {}});
         if (isWarning) {

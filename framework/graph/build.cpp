@@ -308,7 +308,7 @@ private:
         constexpr std::size_t listed = 5;
         std::vector<std::string> names;
         for (std::size_t i = 0; i < nodes().size(); ++i) {
-            if (i == consumer || !nodes()[i].pass) continue;
+            if (!nodes()[i].pass || dependsOn(int(i), int(consumer))) continue;
             for (const Port* port : nodes()[i].pass->ports) {
                 if (isMade(*port) && port->type.kind == wanted.type.kind && port->type.name == wanted.type.name)
                     names.push_back(fmt::format("{}.{}", nodes()[i].name, port->name));
@@ -324,7 +324,7 @@ private:
             if (!node.pass || node.off) continue;
             for (std::size_t p = 0; p < node.inputs.size(); ++p) {
                 if (!node.inputs[p]) continue;
-                const Where where = places_[i].contains(int(p)) ? places_[i][int(p)] : node.where;
+                const Where where = placeOf(int(i), int(p));
                 attempt([&] {
                     const Source before = *node.inputs[p];
                     node.inputs[p] = throughBypasses(nodes(), before, where);
@@ -393,25 +393,42 @@ private:
         Where place = nodes()[std::size_t(cycle[0])].where;
         std::string hint;
         for (std::size_t i = 0; i < cycle.size(); ++i) {
-            names.push_back(nodes()[std::size_t(cycle[i])].name);
             const int from = cycle[i], to = cycle[(i + 1) % cycle.size()];
-            for (std::size_t p = 0; p < nodes()[std::size_t(to)].inputs.size(); ++p) {
-                const auto& input = nodes()[std::size_t(to)].inputs[p];
-                if (!input || input->node != from || input->prev || to > from || !hint.empty()) continue;
-                if (places_[std::size_t(to)].contains(int(p))) place = places_[std::size_t(to)][int(p)];
-                hint = fmt::format("\"{}@prev\" would read last frame's value", graph_.nameOf(*input));
+            names.push_back(nodes()[std::size_t(from)].name);
+            const int edge = findInput(to, from, false);
+            if (edge < 0) {  // `from` reads the state of `to` before it is changed
+                const int reading = findInput(from, to, true);
+                const std::string state = graph_.nameOf(*nodes()[std::size_t(from)].inputs[std::size_t(reading)]);
+                place = placeOf(from, reading);
+                hint = fmt::format("\"{}\" reads \"{}\", which \"{}\" changes in place, and so must come before it; wire an output", names.back(), state,
+                                   nodes()[std::size_t(to)].name);
+            } else if (to <= from && hint.empty()) {
+                place = placeOf(to, edge);
+                hint = fmt::format("\"{}@prev\" would read last frame's value", graph_.nameOf(*nodes()[std::size_t(to)].inputs[std::size_t(edge)]));
             }
         }
         names.push_back(names.front());
         problems_.add(place, fmt::format("the passes go in a circle: {}", fmt::join(names, " -> ")), hint);
     }
 
+    /// First input of `node` that takes last frame's, or this frame's, value of `from`; -1: none.
+    int findInput(int node, int from, bool prev) {
+        const auto& inputs = nodes()[std::size_t(node)].inputs;
+        const auto found = std::ranges::find_if(inputs, [&](const auto& input) { return input && input->node == from && input->prev == prev; });
+        return found == inputs.end() ? -1 : int(found - inputs.begin());
+    }
+
+    Where placeOf(int node, int port) const {
+        const auto found = places_[std::size_t(node)].find(port);
+        return found == places_[std::size_t(node)].end() ? graph_.nodes[std::size_t(node)].where : found->second;
+    }
+
     void checkSizes() {
-        for (std::size_t i = 0; i < nodes().size(); ++i) {
-            for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
-                attempt([&] { countOf(graph_, int(i), int(p), graph_.description.size); });
+        attempt([&] {  // the first that is wrong makes its followers wrong, too
+            for (std::size_t i = 0; i < nodes().size(); ++i) {
+                for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) countOf(graph_, int(i), int(p), graph_.description.size);
             }
-        }
+        });
     }
 
     PluginLibraries& libraries_;

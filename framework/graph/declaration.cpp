@@ -31,7 +31,7 @@ const std::set<std::string_view>& glslWords() {
 const std::set<std::string_view>& ownWords() {
     static const std::set<std::string_view> words{"main", "push", "params", "frame", "passBlock", "pixel", "inside", "pixelIndex", "argument", "warming",
                                                   "skip", "frameIndex", "frameSize", "runSeed", "historyValid", "validating", "countRays", "isOutside",
-                                                  "dispatchSize", "nextTile", "texelIndex", "asRgba"};
+                                                  "texelIndex", "asRgba"};
     return words;
 }
 

@@ -2,9 +2,10 @@
 // Loads pass libraries with dlopen and looks up their passes. LODESTIR_ABI is given by the build.
 #include <framework/graph/plugins.h>
 
-#include <dlfcn.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <dlfcn.h>
 #include <set>
 #include <system_error>
 
@@ -102,7 +103,7 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     for (const Plugin* plugin : plugins) names.push_back(folder + "." + plugin->type);
     if (dot == type.npos) {
         if (plugins.size() == 1) return *plugins.front();
-        throw Error(where, "\"" + type + "\" holds " + std::to_string(plugins.size()) + " passes", didYouMean(type, names));
+        throw Error(where, "\"" + type + "\" holds " + std::to_string(plugins.size()) + " passes", fmt::format("name one: {}", fmt::join(names, ", ")));
     }
     const auto found = std::ranges::find(names, type);
     if (found == names.end()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(type, names));

@@ -17,8 +17,8 @@ struct ExrFile {
 };
 
 /// Reads the first part of a file of scan lines or tiles (their finest level), of half, float or integer channels.
-/// Where there is R, G or B, the image has those, and A where there is one; luminance and chroma (Y, RY, BY) become R, G, B; otherwise it has
-/// all channels by name, A last. The image is the display window: what the data window leaves out is 0, what lies beyond it is left out.
+/// Where there is R, G or B, the image has those, and A where there is one; luminance and chroma (Y, RY, BY) become R, G, B; otherwise
+/// it has all channels by name, A last. The image is the display window: what the data window leaves out is 0, what lies beyond is dropped.
 /// Throws Error naming the file when it cannot be read, is damaged or cut, is deep or no OpenEXR file, or claims an absurd size.
 LODESTIR_API ExrFile readExrFile(const std::filesystem::path& path);
 LODESTIR_API ImageData readExr(const std::filesystem::path& path);

@@ -57,8 +57,9 @@ private:
     bool readHeader() {
         if (!rest_.starts_with("#?RADIANCE") && !rest_.starts_with("#?RGBE")) refuse("is not a Radiance .hdr file");
         for (std::string_view line = takeTextLine(); !line.empty(); line = takeTextLine()) {
-            if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
+            if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") {
                 refuse("has the pixels " + std::string(line) + ", not 32-bit_rle_rgbe");
+            }
         }
         const std::string resolution(takeTextLine());
         char direction = 0;

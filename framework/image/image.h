@@ -33,8 +33,8 @@ LODESTIR_API ImageData makeImage(int width, int height, int channels);
 /// The first `count` channels.
 LODESTIR_API ImageData firstChannels(const ImageData& image, int count);
 
-/// Throws Error naming the file when its header asks for more than an image can sensibly have: 65536 pixels a side, 2^27 pixels (16384 x 8192),
-/// 64 channels, 2^30 values. A damaged header would otherwise take all memory before anything else is noticed.
+/// Throws Error naming the file when its header asks for more than an image can sensibly have: 65536 pixels a side, 2^27 pixels
+/// (16384 x 8192), 64 channels, 2^30 values. A damaged header would otherwise take all memory before anything else is noticed.
 LODESTIR_API void checkImageSize(const std::filesystem::path& path, long long width, long long height, long long channels);
 
 }  // namespace lodestir

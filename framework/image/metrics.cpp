@@ -14,7 +14,7 @@
 namespace lodestir {
 namespace {
 
-/// Keeps relative errors finite where the reference is black; against a median luminance of 0.18 it weighs pixels darker than about 0.1 less.
+/// Keeps relative errors finite where the reference is black; against a median luminance of 0.18, pixels darker than about 0.1 weigh less.
 constexpr double epsilon = 0.01;
 /// Share of the pixels, those of the largest errors, that trimmed metrics leave out.
 constexpr double trimmedShare = 0.001;

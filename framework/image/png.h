@@ -5,8 +5,8 @@
 
 namespace lodestir {
 
-/// Writes 8 bits a channel: grey, RGB or RGBA (1, 3 or 4 channels), clamped to [0, 1] and sRGB-encoded; opacity stays linear. NaN becomes 0.
-/// Throws Error when the channels are others or the file cannot be written.
+/// Writes 8 bits a channel: grey, RGB or RGBA (1, 3 or 4 channels), clamped to [0, 1] and sRGB-encoded; opacity stays linear, NaN
+/// becomes 0. Throws Error when the channels are others or the file cannot be written.
 LODESTIR_API void writePng(const std::filesystem::path& path, const ImageData& image);
 
 /// Reads 8 or 16 bits a channel and decodes sRGB to linear values in [0, 1]. Channels: 1 grey, 2 with opacity, 3 RGB, 4 RGBA.

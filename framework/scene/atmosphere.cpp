@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scattering of sunlight in the air. Lengths in km.
+#include <framework/core/tasks.h>
 #include <framework/scene/atmosphere.h>
 
 #include <algorithm>
@@ -115,8 +116,9 @@ double Atmosphere::shadow(double altitude, double sunSine) const {
 void Atmosphere::tabulateMultiple(const dvec3& groundAlbedo) {
     constexpr int directions = 8, steps = 20;
     multiple_.resize(multipleRows * multipleColumns);
-    for (int row = 0; row < multipleRows; ++row) {
-        for (int column = 0; column < multipleColumns; ++column) {
+    parallelFor(multiple_.size(), multipleColumns, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t entry = begin; entry < end; ++entry) {
+            const int row = static_cast<int>(entry) / multipleColumns, column = static_cast<int>(entry) % multipleColumns;
             const double altitude = std::max(altitudeOf(row / (multipleRows - 1.0)), 0.001), sunSine = 2 * column / (multipleColumns - 1.0) - 1;
             dvec3 second(0), kept(0);
             for (int i = 0; i < directions * directions; ++i) {  // a grid of equal solid angles over the sphere
@@ -143,9 +145,9 @@ void Atmosphere::tabulateMultiple(const dvec3& groundAlbedo) {
                 }
             }
             const double share = 1.0 / (directions * directions);
-            multiple_[static_cast<std::size_t>(row * multipleColumns + column)] = second * share / (1.0 - kept * share);
+            multiple_[entry] = second * share / (1.0 - kept * share);
         }
-    }
+    });
 }
 
 dvec3 Atmosphere::multipleAt(double altitude, double sunSine) const {

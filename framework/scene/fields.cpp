@@ -36,8 +36,8 @@ void Fields::number(const char* key, float& value, double least, double most) {
     try {
         const double read = member->asNumber(fmt::format("\"{}\"", key));
         if (read < least || read > most || !std::isfinite(float(read))) {
-            const std::string range = std::isinf(most) ? fmt::format("at least {}", least) : fmt::format("from {} to {}", least, most);
-            problems_.add(member->where(), fmt::format("\"{}\" of {} is {}, outside its range", key, what_, read), fmt::format("it goes {}", range));
+            const std::string range = std::isinf(most) ? fmt::format("at least {}", least) : fmt::format("{} to {}", least, most);
+            problems_.add(member->where(), fmt::format("\"{}\" of {} is {}, outside its range", key, what_, read), "allowed: " + range);
             return;
         }
         value = static_cast<float>(read);
@@ -52,7 +52,7 @@ void Fields::integer(const char* key, int& value, int least, int most) {
     try {
         const std::int64_t read = member->asInt(fmt::format("\"{}\"", key));
         if (read < least || read > most) {
-            problems_.add(member->where(), fmt::format("\"{}\" of {} is {}, outside its range", key, what_, read), fmt::format("it goes from {} to {}", least, most));
+            problems_.add(member->where(), fmt::format("\"{}\" of {} is {}, outside its range", key, what_, read), least == most ? fmt::format("allowed: {}", least) : fmt::format("allowed: {} to {}", least, most));
             return;
         }
         value = static_cast<int>(read);

@@ -18,12 +18,12 @@ bool hasLight(const Scene& scene) {
     return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return std::max({m.emission.r, m.emission.g, m.emission.b}) > 0; });
 }
 
-void addSky(Scene& scene) {
+void addSky(Scene& scene, bool hasExposure) {
     // A white surface in this sun and sky has a radiance near 5; two stops down it is near 1.
     constexpr float exposure = -2;
     scene.environment = makeSky({});
-    scene.exposure = exposure;
-    scene.notes.push_back(fmt::format("there is no light, so a clear sky with the sun is added; exposure {} stops", exposure));
+    if (!hasExposure) scene.exposure = exposure;
+    scene.notes.push_back(fmt::format("there is no light, so a clear sky with the sun is added; exposure {} stops", scene.exposure));
 }
 
 void addCamera(Scene& scene) {
@@ -61,9 +61,9 @@ Scene loadScene(const Path& path) {
     std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!std::filesystem::exists(path)) throw Error({path.string()}, "there is no such file");
     Scene scene;
-    bool hasEnvironment = false;
+    SceneFileSays says;
     if (extension == ".json") {
-        scene = loadSceneFile(path, hasEnvironment);
+        scene = loadSceneFile(path, says);
     } else if (extension == ".gltf" || extension == ".glb") {
         scene.file = path;
         loadGltf(path, scene, none);
@@ -72,7 +72,7 @@ Scene loadScene(const Path& path) {
     }
     if (scene.instances.empty()) scene.notes.push_back("there are no triangles to be seen");
     if (scene.materials.empty()) scene.materials.push_back({.name = "default"});
-    if (!hasEnvironment && !hasLight(scene)) addSky(scene);
+    if (!says.environment && !hasLight(scene)) addSky(scene, says.exposure);
     if (scene.camera.keys.empty()) addCamera(scene);
     else if (scene.camera.node != none) focusModelCamera(scene);
     return scene;

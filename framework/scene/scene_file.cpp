@@ -52,7 +52,7 @@ class SceneFileLoader {
 public:
     explicit SceneFileLoader(const Path& path) : path_(path), json_(Json::load(path)) { scene_.file = path; }
 
-    Scene load(bool& hasEnvironment) {
+    Scene load(SceneFileSays& says) {
         Fields fields(json_, "the scene", problems_);
         fields.allow({"$schema"});
         checkFormat(fields);
@@ -68,7 +68,7 @@ public:
         const Json* environment = fields.find("environment");
         fields.finish();
         if (environment) readEnvironment(*environment, path_.parent_path(), scene_, problems_);
-        hasEnvironment = environment != nullptr;
+        says = {.environment = environment != nullptr, .exposure = json_.find("exposure") != nullptr};
         problems_.raise();
         return std::move(scene_);
     }
@@ -158,7 +158,8 @@ private:
             }
             if (const Json* scale = fields.find("scale")) {
                 if (scale->isNumber()) node.scale = glm::vec3(float(scale->asNumber()));
-                else fields.vector("scale", node.scale);
+                else if (scale->isArray()) fields.vector("scale", node.scale);
+                else throw Error(scale->where(), fmt::format("\"scale\" must be a number or an array of 3 numbers, not {}", scale->kindName()));
                 if (node.scale.x * node.scale.y * node.scale.z == 0) throw Error(scale->where(), fmt::format("{} has no size", fields.what()), "a scale must not be 0");
             }
         } catch (const Error& error) {
@@ -237,6 +238,6 @@ private:
 
 }  // namespace
 
-Scene loadSceneFile(const Path& path, bool& hasEnvironment) { return SceneFileLoader(path).load(hasEnvironment); }
+Scene loadSceneFile(const Path& path, SceneFileSays& says) { return SceneFileLoader(path).load(says); }
 
 }  // namespace lodestir

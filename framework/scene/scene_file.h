@@ -5,9 +5,14 @@
 
 namespace lodestir {
 
+/// What a scene file has decided, so that no default goes over it.
+struct SceneFileSays {
+    bool environment = false;  ///< there is one, be it black
+    bool exposure = false;
+};
+
 /// Reads a scene file and the models it names. Model and map files are looked up beside the scene file, models also in sceneFolder().
 /// Unknown keys are errors. Error with everything that is wrong in the file and its models.
-/// `hasEnvironment` is set when the file describes one, be it black.
-Scene loadSceneFile(const Path& path, bool& hasEnvironment);
+Scene loadSceneFile(const Path& path, SceneFileSays& says);
 
 }  // namespace lodestir

@@ -159,10 +159,10 @@ void readCamera(const Json& value, Scene& scene, Problems& problems) {
         Fields frame(keyframes->items()[i], fmt::format("keyframe {}", i), problems);
         bool focused = hasFocus;
         CameraKey key = readKey(frame, base, focused);
-        frame.require("frame");
+        const bool hasFrame = frame.require("frame");
         frame.number("frame", key.frame);
         frame.finish();
-        if (!keys.empty() && key.frame <= keys.back().frame) frame.problem(frame.where(), fmt::format("keyframe {} is not later than the one before", i));
+        if (hasFrame && !keys.empty() && key.frame <= keys.back().frame) frame.problem(frame.where(), fmt::format("keyframe {} is not later than the one before", i));
         keys.push_back(key);
     }
     scene.camera.keys = std::move(keys);

@@ -83,26 +83,23 @@ Textures paintRug(uint32_t seed, int width, const glm::vec2& metres) {
 
 Mesh curtain(uint32_t seed, float width, float height) {
     const Noise noise{seed};
-    return [&] {
-        Mesh mesh = grid(int(width * 150), 14, [&](float u, float v) {
-            // The tape gathers even pleats; farther down they wander, merge and open.
-            const float wander = 0.9f * v * noise.fractal({u * 4, v * 1.3f, 0.5f}, 2);
-            const float phase = tau * (u * width / 0.105f + wander);
-            const float depth = 0.020f + 0.030f * v + 0.012f * noise.at({u * 7, v * 2, 5.5f}) * v;
-            const float sway = 0.02f * v * v * noise.at({u * 2, 0.5f, 9.5f});
-            return glm::vec3((u - 0.5f) * width * (1 - 0.05f * std::sin(v * tau / 2)) + 0.010f * std::sin(2 * phase) * v, -v * height,
-                             depth * std::sin(phase) + sway);
-        });
-        // Cloth is longer than the span it covers: about half again.
-        scaleUv(mesh, {1.5f * width, height});
-        return mesh;
-    }();
+    Mesh mesh = grid(int(width * 150), 14, [&](float u, float v) {
+        // The tape gathers even pleats; farther down they wander, merge and open.
+        const float wander = 0.9f * v * noise.fractal({u * 4, v * 1.3f, 0.5f}, 2);
+        const float phase = tau * (u * width / 0.105f + wander);
+        const float depth = 0.020f + 0.030f * v + 0.012f * noise.at({u * 7, v * 2, 5.5f}) * v;
+        const float sway = 0.02f * v * v * noise.at({u * 2, 0.5f, 9.5f});
+        const float gathered = 1 - 0.05f * std::sin(v * tau / 2);
+        return glm::vec3((u - 0.5f) * width * gathered + 0.010f * std::sin(2 * phase) * v, -v * height, depth * std::sin(phase) + sway);
+    });
+    scaleUv(mesh, {1.5f * width, height});   // the cloth is half again as long as the span it covers
+    return mesh;
 }
 
 Mesh rug(uint32_t seed, const glm::vec2& metres) {
     const Noise noise{seed};
     constexpr float thickness = 0.012f;
-    Mesh mesh = bent(roundedBox({metres.x, thickness, metres.y}, 0.005f, 2, Axis::x, 40), [&](const glm::vec3& p) {
+    Mesh mesh = bent(roundedBox({metres.x, thickness, metres.y}, 0.005f, 2, Axis::x, 16), [&](const glm::vec3& p) {
         const float wave = 0.5f + 0.5f * noise.fractal({p.x * 1.4f, 0.5f, p.z * 1.4f}, 3);
         return glm::vec3(p.x + 0.006f * noise.at({p.z * 3, 1.5f, 0.5f}), p.y + thickness / 2 + (p.y > 0 ? 0.004f * wave : 0.0f), p.z + 0.006f * noise.at({p.x * 3, 4.5f, 0.5f}));
     });
@@ -116,7 +113,7 @@ Mesh rug(uint32_t seed, const glm::vec2& metres) {
             const glm::vec3 tip = root + glm::vec3(side * random.between(0.035f, 0.055f), -0.005f, random.between(-0.008f, 0.008f));
             const glm::vec3 middle = (root + tip) * 0.5f + glm::vec3(0, 0.001f, random.between(-0.004f, 0.004f));
             const Station bundle[] = {{root, 0.0024f}, {middle, 0.0018f}, {tip, 0.0022f}};
-            Mesh tassel = tube(bundle, 5, 90);
+            Mesh tassel = tube(bundle, 4, 90);
             for (Vertex& v : tassel.vertices) v.uv = {0.5f + side * 0.44f, 0.5f + 0.23f * z / metres.y};
             append(mesh, tassel);
         }

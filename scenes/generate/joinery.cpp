@@ -31,13 +31,13 @@ Mesh rod(const glm::vec3& from, const glm::vec3& to, float radiusFrom, float rad
         stations.push_back({p + along * (inward * soft), radius});
     };
     rim(from, radiusFrom, 1);
-    for (int i = 1; i < 6; ++i) stations.push_back({glm::mix(from, to, float(i) / 6), glm::mix(radiusFrom, radiusTo, float(i) / 6)});
+    stations.push_back({(from + to) * 0.5f, (radiusFrom + radiusTo) * 0.5f});
     std::vector<Station> head = std::move(stations);
     stations.clear();
     rim(to, radiusTo, -1);
     head.insert(head.end(), stations.rbegin(), stations.rend());
 
-    Mesh mesh = tube(head, 20);
+    Mesh mesh = tube(head, 16);
     for (Vertex& v : mesh.vertices) v.uv = glm::vec2(v.uv.y, v.uv.x) / panelSize + cut(seed);   // grain along the bar
     return mesh;
 }

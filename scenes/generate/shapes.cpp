@@ -40,19 +40,35 @@ Mesh rectangle(const glm::vec3& corner, const glm::vec3& right, const glm::vec3&
     return grid(1, 1, [&](float u, float v) { return corner + right * u + down * v; });
 }
 
+namespace {
+
+struct Face {
+    glm::vec3 right, up;
+};
+/// The faces of a box: seen from outside, right x up is the outward normal.
+constexpr Face boxFaces[6] = {{{1, 0, 0}, {0, 1, 0}}, {{-1, 0, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 1, 0}},
+                              {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, -1}}, {{1, 0, 0}, {0, 0, 1}}};
+
+}  // namespace
+
+Mesh plainBox(const glm::vec3& size) {
+    Mesh mesh;
+    for (const Face& face : boxFaces) {
+        const glm::vec3 right = face.right * size, up = face.up * size, out = glm::cross(face.right, face.up) * size;
+        Mesh side = rectangle((out - right + up) * 0.5f, right, -up);
+        scaleUv(side, {glm::length(right), glm::length(up)});
+        append(mesh, side);
+    }
+    return mesh;
+}
+
 Mesh roundedBox(const glm::vec3& size, float radius, int segments, Axis grain, int divisions) {
-    struct Face {
-        glm::vec3 right, up;
-    };
-    // Seen from outside, right x up is the outward normal.
-    const Face faces[6] = {{{1, 0, 0}, {0, 1, 0}}, {{-1, 0, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 1, 0}},
-                           {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, -1}}, {{1, 0, 0}, {0, 0, 1}}};
     const glm::vec3 half = size * 0.5f;
     radius = std::min({radius, half.x, half.y, half.z});
     const glm::vec3 core = half - radius;
 
     Mesh mesh;
-    for (const Face& face : faces) {
+    for (const Face& face : boxFaces) {
         const glm::vec3 normal = glm::cross(face.right, face.up);
         const float halfRight = glm::dot(glm::abs(face.right), half), halfUp = glm::dot(glm::abs(face.up), half);
         const bool turn = std::abs(face.up[int(grain)]) > 0.5f;

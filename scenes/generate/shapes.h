@@ -24,6 +24,9 @@ enum class Axis { x, y, z };
 /// be bent. UVs in metres, face by face, u along `grain`.
 Mesh roundedBox(const glm::vec3& size, float radius, int segments = 2, Axis grain = Axis::x, int divisions = 1);
 
+/// A box with sharp edges, for parts whose edges are never seen. UVs in metres.
+Mesh plainBox(const glm::vec3& size);
+
 /// A sphere of radius 1. u runs around from +z towards +x, v from the north pole (+y) down.
 Mesh sphere(int columns, int rows);
 

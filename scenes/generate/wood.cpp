@@ -10,7 +10,7 @@
 
 namespace lodestir::generate {
 
-Wood oak() { return {.early = {0.50f, 0.32f, 0.17f}, .late = {0.33f, 0.19f, 0.088f}, .roughness = 0.42f, .pores = 1}; }
+Wood oak() { return {.early = {0.56f, 0.38f, 0.21f}, .late = {0.38f, 0.23f, 0.11f}, .roughness = 0.42f, .pores = 1}; }
 Wood walnut() { return {.early = {0.16f, 0.085f, 0.045f}, .late = {0.075f, 0.037f, 0.02f}, .roughness = 0.38f, .pores = 0.8f}; }
 Wood birch() { return {.early = {0.68f, 0.52f, 0.33f}, .late = {0.56f, 0.40f, 0.23f}, .roughness = 0.5f, .pores = 0.25f}; }
 

@@ -65,6 +65,7 @@ TEST_F(Compare, JsonHasTheMetricsAskedForAndNoOthers) {
 TEST_F(Compare, TextIsALineAMetric) {
     EXPECT_EQ(compare({"x.exr", "r.exr", "--metrics", "mse,mae"}), "mse             1.70833\nmae             0.75\n");
     EXPECT_EQ(compare({"r.exr", "r.exr", "--metrics", "psnr"}), "psnr            inf\n");
+    EXPECT_EQ(compare({"--metrics", "mae,mse", "x.exr", "r.exr"}), "mae             0.75\nmse             1.70833\n");
 }
 
 TEST_F(Compare, OpacityIsNotCompared) {

@@ -26,8 +26,9 @@ std::string errorOf(const std::vector<DeviceFacts>& devices, const std::string& 
     return "no error";
 }
 
-const std::vector<DeviceFacts> machine{device(0, "llvmpipe (LLVM 15)", "cpu"), device(1, "Big GPU", "discrete", false), device(2, "Small GPU", "integrated"),
-                                       device(3, "Middle GPU", "discrete"), device(4, "Other GPU", "discrete")};
+const std::vector<DeviceFacts> machine{device(0, "llvmpipe (LLVM 15)", "cpu"), device(1, "Big GPU", "discrete", false),
+                                       device(2, "Small GPU", "integrated"), device(3, "Middle GPU", "discrete"),
+                                       device(4, "Other GPU", "discrete")};
 
 TEST(Device, PrefersTheFirstUsableDiscreteOne) {
     EXPECT_EQ(chooseDevice(machine, ""), 3u);

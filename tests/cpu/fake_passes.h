@@ -67,6 +67,9 @@ struct Values final : Pass {
     In<Buffer<vec4>>  values{this, "values", "a value of each pixel"};
     Out<Buffer<vec4>> sorted{this, "sorted", "the same in order", Count::likePort("values")};
 };
+struct Huge final : Pass {
+    Out<Buffer<vec4>> values{this, "values", "many values of each pixel", Count::perPixel(20)};
+};
 struct ToneMap final : Pass {
     In<Image>  color{this, "color", "radiance"};
     Out<Image> image{this, "image", "what is displayed", Format::rgba8, {.like = "color"}};
@@ -104,6 +107,7 @@ inline void addTo(PluginLibraries& libraries) {
     libraries.addBuiltIn("bake", plugin<Bake>("Bake"));
     libraries.addBuiltIn("lookup", plugin<Lookup>("Lookup"));
     libraries.addBuiltIn("values", plugin<Values>("Values"));
+    libraries.addBuiltIn("huge", plugin<Huge>("Huge"));
     libraries.addBuiltIn("tone_map", plugin<ToneMap>("ToneMap"));
     libraries.addBuiltIn("motion", plugin<Motion>("Motion"));
     libraries.addBuiltIn("mix", plugin<Mix>("Mix"));

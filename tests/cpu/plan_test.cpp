@@ -66,7 +66,7 @@ TEST(Plan, RunsInFileOrderUnlessNeedsSayOtherwise) {
     EXPECT_EQ(order(1), "scene r b t ");
     EXPECT_EQ(order(2), "scene r x b t ");
     EXPECT_EQ(order(6), "scene r q m a ");  // q reads the sum before a changes it
-    EXPECT_EQ(order(7), "k scene r l t ") << "the implied scene comes first";
+    EXPECT_EQ(order(7), "scene k r l t ");  // the implied scene comes first
     EXPECT_EQ(order(10), "scene r a b c d t ");
 }
 

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <fstream>
+#include <unistd.h>
 
 namespace lodestir::gpu {
 namespace {
@@ -16,8 +17,7 @@ namespace {
 class ShaderTest : public ::testing::Test {
 protected:
     void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() / ("lodestir_shader_test_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-                                                            ::testing::UnitTest::GetInstance()->current_test_info()->name());
+        folder_ = std::filesystem::temp_directory_path() / ("lodestir_shader_test_" + std::to_string(getpid()));
         std::filesystem::remove_all(folder_);
         setenv("LODESTIR_CACHE", (folder_ / "cache").c_str(), 1);
     }
@@ -43,8 +43,9 @@ protected:
 const char* const head = "#version 460\nlayout(local_size_x = 8) in;\n";
 
 TEST_F(ShaderTest, TakesEveryFileOnceAndLooksInItsFolders) {
-    write("main.comp", "#version 460\n#include \"near.glsl\"\n#include \"far.glsl\"\n#include <far.glsl>\n#include \"made.glsl\"\n"
-                       "layout(local_size_x = 8) in;\nvoid main() { uint x = near() + far() + made() + WANTED; }\n");
+    write("main.comp",
+          "#version 460\n#include \"near.glsl\"\n#include \"far.glsl\"\n#include <far.glsl>\n#include \"made.glsl\"\n"
+          "layout(local_size_x = 8) in;\nvoid main() { uint x = near() + far() + made() + WANTED; }\n");
     write("near.glsl", "#include \"far.glsl\"\nuint near() { return far(); }\n");
     write("shared/far.glsl", "#include \"deep/deep.glsl\"\nuint far() { return deep(); }\n");
     write("shared/deep/deep.glsl", "uint deep() { return 1u; }\n");
@@ -55,7 +56,8 @@ TEST_F(ShaderTest, TakesEveryFileOnceAndLooksInItsFolders) {
     ASSERT_GT(spirv.words.size(), 5u);
     EXPECT_EQ(spirv.words[0], 0x07230203u);  // SPIR-V's magic number
     EXPECT_EQ(spirv.words[1], 0x00010600u);  // 1.6
-    const std::vector<Path> files{folder_ / "main.comp", folder_ / "near.glsl", folder_ / "shared/far.glsl", folder_ / "shared/deep/deep.glsl"};
+    const std::vector<Path> files{folder_ / "main.comp", folder_ / "near.glsl", folder_ / "shared/far.glsl",
+                                  folder_ / "shared/deep/deep.glsl"};
     std::vector<Path> found = spirv.files;
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, (std::vector<Path>{files[0], files[1], files[3], files[2]}));
@@ -69,7 +71,8 @@ TEST_F(ShaderTest, ErrorsNameTheRealFileAndLine) {
     write("b.glsl", "uint b() { return 1u; }\n");
     EXPECT_EQ(errorOf(source()), (folder_ / "a.glsl").string() + ":4: 'missing' : undeclared identifier; in: return missing;");
     write("a.glsl", "\n#include \"nowhere.glsl\"\n");
-    EXPECT_NE(errorOf(source()).find((folder_ / "a.glsl").string() + ":2: '#include' : no such file"), std::string::npos) << errorOf(source());
+    EXPECT_NE(errorOf(source()).find((folder_ / "a.glsl").string() + ":2: '#include' : no such file"), std::string::npos)
+        << errorOf(source());
     EXPECT_NE(errorOf(source("none.comp")).find("none.comp"), std::string::npos);
 }
 

@@ -45,8 +45,10 @@ TEST_F(Examples, NamedConfigurations) {
 
 // If this fails, a pass has no example, and nobody sees it work.
 TEST_F(Examples, EachPassHasOne) {
-    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder / "passes"))
-        if (entry.is_directory()) EXPECT_TRUE(std::filesystem::exists(entry.path() / (entry.path().filename().string() + ".json"))) << entry.path();
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder / "passes")) {
+        const std::string name = entry.path().filename().string();
+        EXPECT_TRUE(!entry.is_directory() || std::filesystem::exists(entry.path() / (name + ".json"))) << name;
+    }
 }
 
 TEST_F(Examples, CheckPlansEachWithoutADevice) {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <numeric>
 #include <optional>
+#include <unistd.h>
 
 namespace lodestir::gpu {
 namespace {
@@ -21,7 +22,7 @@ protected:
         DeviceOptions options;
         options.validation = true;
         device_.emplace(options);
-        folder_ = std::filesystem::temp_directory_path() / "lodestir_gpu_test";
+        folder_ = std::filesystem::temp_directory_path() / ("lodestir_gpu_test_" + std::to_string(getpid()));
     }
     void TearDown() override {
         if (!device_) return;
@@ -142,11 +143,15 @@ TEST_F(GpuTest, WrongUseIsToldInWords) {
         }
         return "no error";
     };
-    EXPECT_NE(errorOf([&] { Buffer(*device_, std::size_t{1} << 60, Memory::device, "huge"); }).find("buffer \"huge\" needs"), std::string::npos);
+    EXPECT_NE(errorOf([&] { Buffer(*device_, std::size_t{1} << 60, Memory::device, "huge"); }).find("buffer \"huge\" needs"),
+              std::string::npos);
     const Pipeline pipeline(*device_, compile(sums), {}, pushBytes, "sums");
     Commands commands(*device_, 1);
     commands.begin();
-    EXPECT_NE(errorOf([&] { commands.dispatch(pipeline, bytesOf({0, 0}), 1, 0xffffffffu); }).find("workgroups; the device allows"), std::string::npos);
+    EXPECT_NE(errorOf([&] {
+                  commands.dispatch(pipeline, bytesOf({0, 0}), 1, 0xffffffffu);
+              }).find("workgroups; the device allows"),
+              std::string::npos);
     EXPECT_NE(errorOf([&] { Pipeline(*device_, compile(sums), {}, 1u << 20, "greedy"); }).find("greedy"), std::string::npos);
     const Buffer small(*device_, 4, Memory::device, "small");
     std::byte out[512];

@@ -95,14 +95,32 @@ private:
     std::vector<Plane> planes_;
 };
 
-// In a closed room whose walls all emit E and reflect a share a, radiance is the same everywhere: E (1 + a + ... + a^n) after n scatterings.
+constexpr Point glow{1.0, 0.5, 0.25}, dye{0.8, 0.5, 0.2};
+const View insideGlow{.position = {0.4, 0.1, 0.7}, .target = {0, 0, -1}, .fovy = 70};
+
+std::vector<Quad> glowingRoom() { return box({-1, -1, -1}, {1, 1.5, 1}, {.color = dye, .emission = glow}, /* inward = */ true); }
+
+/// Its radiance after n scatterings: E (1 + a + ... + a^n).
+Point glowAfter(int bounces) {
+    Point sum(0), factor(1);
+    for (int k = 0; k <= bounces; ++k, factor *= dye) sum += glow * factor;
+    return sum;
+}
+
+// If this fails, the solution that the renderer is judged by is wrong itself.
+TEST_F(Radiosity, ReferenceSolvesTheUniformEnclosure) {
+    const ImageData image = Reference(glowingRoom()).frame(insideGlow, 1, 6, 1);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x)
+            for (int c = 0; c < 3; ++c) ASSERT_NEAR(image.at(x, y, c), glowAfter(6)[c], 1e-6) << "pixel " << x << ", " << y;
+}
+
+// In a closed room whose walls all emit E and reflect a share a, radiance is the same everywhere.
 TEST_F(Radiosity, UniformEnclosureHasItsClosedForm) {
-    const Point emission{1.0, 0.5, 0.25}, albedo{0.8, 0.5, 0.2};
-    writeModel(folder, "enclosure", box({-1, -1, -1}, {1, 1.5, 1}, {.color = albedo, .emission = emission}, /* inward = */ true));
-    writeScene(folder, "enclosure", {.position = {0.4, 0.1, 0.7}, .target = {0, 0, -1}, .fovy = 70}, constantEnvironment(Point(0)));
+    writeModel(folder, "enclosure", glowingRoom());
+    writeScene(folder, "enclosure", insideGlow, constantEnvironment(Point(0)));
     for (const int bounces : {0, 1, 6}) {
-        Point expected(0), factor(1);
-        for (int k = 0; k <= bounces; ++k, factor *= albedo) expected += emission * factor;
+        const Point expected = glowAfter(bounces);
         // BSDF sampling meets the same radiance whatever it hits: no noise but rounding. Roulette would bring some.
         const auto exact = render("exact", writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"estimator", "bsdf"}, {"roulette", false}}), "trace.color", 1, {});
         ASSERT_EQ(exact.size(), 1u);

@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include <framework/shaders/world/primary_hit.h>
+#include <framework/shaders/world/world.h>
 
 #include <cstring>
 

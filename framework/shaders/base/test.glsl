@@ -93,8 +93,8 @@ void main() {
     if (testFailures <= testPush.skip) return;
     uint slot = atomicAdd(results.count, 1u);
     if (slot >= TEST_RECORDS) return;
-    results.recorded[slot] = TestFailure(testPlace >> 16, testPlace & 0xffffu, testKind >> 16, testKind & 0xffffu, testValue, testExpected, testTolerance,
-                                         gl_GlobalInvocationID);
+    results.recorded[slot] = TestFailure(testPlace >> 16, testPlace & 0xffffu, testKind >> 16, testKind & 0xffffu,
+                                         testValue, testExpected, testTolerance, gl_GlobalInvocationID);
 }
 #define main testMain
 

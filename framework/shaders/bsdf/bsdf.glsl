@@ -128,8 +128,8 @@ BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
     if (cosH <= 0.0 || (refracted && cosHI >= 0.0)) return value;
     cosI = abs(cosI);
     float distribution = ggxDistribution(b.normal, h, b.alpha), fresnel = fresnelDielectric(cosH, b.eta);
-    // Walter et al. 2007, eq. 20, 21: G2 D |o.h| |i.h| / (cosO (eta i.h + o.h)^2), where the last factor is the length of `sum`; its density
-    // has eta^2 |i.h| / (eta i.h + o.h)^2. For reflection both Jacobians are 1 / (4 o.h), eq. 14.
+    // Walter et al. 2007, eq. 17, 21: f |cosI| = G2 D |o.h| |i.h| / (cosO (eta i.h + o.h)^2) with the squared length of `sum` below; half
+    // vectors become directions with the density's factor eta^2 |i.h| / (eta i.h + o.h)^2. For reflection it is 1 / (4 o.h), eq. 14.
     float jacobian = refracted ? abs(cosHI) / dot(sum, sum) : 0.25;
     float f = distribution * ggxVisibility(cosO, cosI, b.alpha) * cosI * (refracted ? 4.0 * cosH * jacobian : 1.0);
     float pdf = ggxVisibleDensity(cosO, distribution, b.alpha) * (refracted ? cosH * b.eta * b.eta * jacobian : jacobian);

@@ -25,7 +25,8 @@ void main() {
     // Widths down to both sides of the delta threshold.
     float alpha = d.y < 0.2 ? 0.0 : d.y < 0.4 ? 0.00099 : d.y < 0.6 ? 0.00101 : d.y < 0.7 ? 1.0 : d.y;
     vec3 geometric = d.z < 0.5 ? n : safeNormalize(n + 0.8 * (random3(seed, 0u, 5u) - 0.5), n);
-    Bsdf m = Bsdf(n, geometric, vec3(extreme(a.x), extreme(a.y), extreme(a.z)), extreme(b.z), extreme(c.x), alpha, eta, extreme(c.y), a.x > 0.5);
+    vec3 base = vec3(extreme(a.x), extreme(a.y), extreme(a.z));
+    Bsdf m = Bsdf(n, geometric, base, extreme(b.z), extreme(c.x), alpha, eta, extreme(c.y), a.x > 0.5);
 
     for (uint i = 0u; i < 12u; ++i) {
         vec3 u = random3(seed, i, 8u);

@@ -13,8 +13,8 @@ float fresnelDielectric(float cosine, float eta) {
     return min(1.0, 0.5 * a * a * (1.0 + b * b));
 }
 
-/// Cosine-weighted mean of fresnelDielectric over the hemisphere. A polynomial in the amplitude (n - 1) / (n + 1), fitted for n in [1, 4] to
-/// 1e-3 of what is transmitted, and 0 for n = 1; from inside, what passes is the same divided by n^2 (reciprocity).
+/// Cosine-weighted mean of fresnelDielectric over the hemisphere. A polynomial in the amplitude (n - 1) / (n + 1), fitted for n in [1, 4]
+/// to 1e-3 of what is transmitted, and 0 for n = 1; from inside, what passes is the same divided by n^2 (reciprocity).
 float fresnelDielectricMean(float eta) {
     float n = max(eta, 1.0 / eta), x = (n - 1.0) / (n + 1.0);
     float outside = x * (0.551977 + x * (-0.894789 + x * (2.50807 - 1.42559 * x)));

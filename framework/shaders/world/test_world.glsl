@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For tests: a World whose arrays lie in the test's scratch memory. Pass 0 writes them (`TestMaterials(testArray(TEST_MATERIALS)).at[0] = ...`),
-// pass 1 reads them through testWorld(). Each array has 128 KiB.
+// For tests: a World whose arrays lie in the test's scratch memory. Pass 0 writes them, as in
+// `TestMaterials(testArray(TEST_MATERIALS)).at[0] = testMaterial();`, pass 1 reads them through testWorld(). Each array has 128 KiB.
 #include "base/test.glsl"
 #include "trace/ray.h"
 #include "world/world.h"

@@ -13,7 +13,7 @@ const uint LEVELS = 8u;         // most levels of a mesh: stride of World.roots
 // Attributes of a vertex that traversal does not need. 28 bytes.
 struct VertexRecord {
     uint normal;   // octahedral, snorm16 x 2
-    uint tangent;  // octahedral, snorm16 x 2 with bit 0 replaced by the sign (1: bitangent = -cross(n, t)); 0x00010000-like zero means none
+    uint tangent;  // the same with bit 0 replaced by the sign (1: bitangent = -cross(n, t)); 0: none (base/pack.glsl has the layouts)
     vec2 uv0, uv1;
     uint color;    // unorm8 x 4, linear
 };

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// If these fail, materials read the wrong channel, or glass doesn't know which side it is seen from.
+// passes: 2
+#version 460
+#include "bsdf/material.glsl"
+#include "world/test_world.glsl"
+layout(local_size_x = 8) in;
+
+// 0: factors only, 1: all maps, 2: solid glass, 3: blend, 4: out of range.
+void write() {
+    for (uint v = 0u; v < 3u; ++v) {
+        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec3(v == 1u ? 1.0 : 0.0, v == 2u ? 1.0 : 0.0, 0.0);
+        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(vec3(0, 0, 1)), 0u, vec2(0), vec2(0), 0xff80ff00u);
+    }
+    TestInstances(testArray(TEST_INSTANCES)).at[0] = testInstance(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0));
+    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 1u, 1u, 1u, 0u);
+    TestUints(testArray(TEST_TEXELS)).at[0] = 51u | 102u << 8 | 153u << 16 | 204u << 24;  // 0.2, 0.4, 0.6, 0.8
+    MaterialRecord r[5];
+    for (uint m = 0u; m < 5u; ++m) r[m] = testMaterial();
+    r[0].baseColor = vec4(0.1, 0.2, 0.3, 0.4);
+    r[0].metallic = 0.25;
+    r[0].roughness = 0.5;
+    r[0].flags = MATERIAL_VERTEX_COLOR;
+    r[1].baseColorMap = r[1].metallicRoughnessMap = r[1].transmissionMap = testSlot(0u);
+    r[1].baseColor = vec4(0.5);
+    r[1].metallic = 0.5;
+    r[1].transmission = 0.5;
+    r[2].flags = MATERIAL_SOLID;
+    r[2].transmission = 1.0;
+    r[2].roughness = 0.0;
+    r[2].attenuation = vec3(0.0, 1.0, 2.0);
+    r[3].flags = MATERIAL_BLEND;
+    r[3].baseColor.a = 0.5;
+    r[3].baseColorMap = testSlot(0u);
+    r[4].baseColor = vec4(2.0);
+    r[4].metallic = -1.0;
+    r[4].ior = 0.0;
+    for (uint m = 0u; m < 5u; ++m) {
+        TestMaterials(testArray(TEST_MATERIALS)).at[m] = r[m];
+        TestPrimitives(testArray(TEST_PRIMITIVES)).at[m] = PrimitiveRecord(0u, 1u, 2u, m);
+    }
+}
+
+void main() {
+    uint m = gl_LocalInvocationID.x;
+    if (testPush.pass == 0u) {
+        if (m == 0u) write();
+        return;
+    }
+    if (m >= 5u) return;
+    World w = testWorld();
+    for (uint side = 0u; side < 2u; ++side) {
+        Surface s = surfaceAt(w, Hit(1.0, vec2(0.2), m, 0u), vec3(0, 0, side == 0u ? -1 : 1));
+        Bsdf b = bsdfAt(w, s);
+        vec3 passed = segmentTransmittance(w, s, 0.5);
+        EXPECT_NEAR(b.normal, vec3(0, 0, side == 0u ? 1 : -1), 1e-6);
+        if (m == 0u) {
+            EXPECT_NEAR(b.base, vec3(0.0, 0.2, 0.3 * 128.0 / 255.0), 1e-6);
+            EXPECT_NEAR(vec3(b.metallic, b.alpha, b.transmission), vec3(0.25, 0.25, 0.0), 1e-6);
+            EXPECT_EQ(vec2(b.eta, b.coverage), vec2(1.5, 1.0));
+        }
+        if (m == 1u) {
+            EXPECT_NEAR(b.base, vec3(0.1, 0.2, 0.3), 1e-6);
+            EXPECT_NEAR(vec3(b.metallic, b.alpha, b.transmission), vec3(0.3, 0.16, 0.1), 1e-6);
+        }
+        if (m == 2u) {
+            EXPECT_EQ(b.eta, side == 0u ? 1.5 : 1.0 / 1.5);
+            EXPECT_TRUE(b.solid && lobeDelta(b, LOBE_TRANSMISSION) && bsdfAllDelta(b, s.normal));
+            EXPECT_NEAR(passed, side == 0u ? vec3(1.0) : exp(vec3(0.0, -0.5, -1.0)), 1e-6);
+        } else {
+            EXPECT_EQ(passed, vec3(1.0));
+        }
+        EXPECT_NEAR(b.coverage, m == 3u ? 0.4 : 1.0, 1e-6);
+        if (m == 4u) {
+            EXPECT_EQ(vec4(b.base, b.metallic), vec4(1, 1, 1, 0));
+            EXPECT_TRUE(fresnelDielectric(1.0, b.eta) > 0.99);
+        }
+    }
+}

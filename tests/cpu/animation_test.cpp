@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Poses over time: glTF's interpolations, the repeating clock, camera paths.
+#include "gltf_model.h"
+
+#include <framework/core/error.h>
+#include <framework/scene/animation.h>
+#include <framework/scene/camera.h>
+#include <framework/scene/gltf.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lodestir {
+namespace {
+
+void expectNear(const glm::vec4& value, const glm::vec4& expected, float tolerance = 1e-5f) {
+    for (int i = 0; i < 4; ++i) EXPECT_NEAR(value[i], expected[i], tolerance) << "component " << i;
+}
+
+// If this fails, animated things jump or drift.
+TEST(Animation, StepHoldsAndLinearMixes) {
+    AnimationChannel channel{.times = {1, 2, 4}, .values = {{0, 0, 0, 0}, {10, 0, 0, 0}, {20, 4, 0, 0}}};
+    expectNear(evaluate(channel, 0), {0, 0, 0, 0});  // constant before the first and after the last key
+    expectNear(evaluate(channel, 1.25f), {2.5f, 0, 0, 0});
+    expectNear(evaluate(channel, 3), {15, 2, 0, 0});
+    expectNear(evaluate(channel, 9), {20, 4, 0, 0});
+    channel.interpolation = Interpolation::step;
+    expectNear(evaluate(channel, 1.99f), {0, 0, 0, 0});
+    expectNear(evaluate(channel, 2), {10, 0, 0, 0});
+}
+
+// If this fails, rotations take the long way round or change speed: a quarter turn about Z is an eighth at half time.
+TEST(Animation, LinearRotationIsSphericalAndShort) {
+    const float h = std::sqrt(0.5f);
+    AnimationChannel channel{.value = AnimatedValue::rotation, .times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, -h, -h}}};  // -q is the same rotation
+    const float a = 3.14159265f / 8;
+    expectNear(evaluate(channel, 0.5f), {0, 0, std::sin(a), std::cos(a)});
+    expectNear(evaluate(channel, 0.25f), {0, 0, std::sin(a / 2), std::cos(a / 2)});
+}
+
+// If this fails, splines overshoot: values 0 and 2 with tangents 3 and -1 per second over 2 s. By hand at t = 1/2:
+// p = 1/2 * 0 + 2 * 1/8 * 3 + 1/2 * 2 - 2 * 1/8 * (-1) = 0.75 + 1 + 0.25 = 2.
+TEST(Animation, CubicFollowsHermite) {
+    const AnimationChannel channel{.interpolation = Interpolation::cubic,
+                                   .times = {0, 2},
+                                   .values = {{0, 0, 0, 0}, {0, 0, 0, 0}, {3, 0, 0, 0}, {-1, 0, 0, 0}, {2, 0, 0, 0}, {0, 0, 0, 0}}};
+    EXPECT_NEAR(evaluate(channel, 1).x, 2, 1e-5);
+    EXPECT_NEAR(evaluate(channel, 0).x, 0, 1e-6);
+    EXPECT_NEAR(evaluate(channel, 2).x, 2, 1e-6);
+    EXPECT_NEAR((evaluate(channel, 0.001f).x - evaluate(channel, 0).x) / 0.001f, 3, 0.02);  // it leaves with its tangent
+}
+
+// If this fails, frames show another time than the file's seconds.
+TEST(Animation, ClockRepeatsAndHasSpeed) {
+    Scene scene;
+    scene.nodes = {{.name = "a"}, {.name = "b", .parent = 0, .translation = {0, 1, 0}}};
+    scene.animation = {{.node = 0, .times = {0, 2}, .values = {{0, 0, 0, 0}, {4, 0, 0, 0}}}};
+    scene.animationLength = 2;
+    scene.framesPerSecond = 10;
+    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].x, 1, 1e-5);  // 0.5 s
+    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].y, 1, 1e-5);  // the child keeps its own place
+    EXPECT_NEAR(scene.nodeMatrices(25)[1][3].x, 1, 1e-4);  // once around
+    scene.animationSpeed = 2;
+    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].x, 2, 1e-5);
+}
+
+// If this fails, animations of a file move the wrong node or the wrong value.
+TEST(Animation, LoadsFromGltf) {
+    GltfModel model;
+    model.addTriangle();
+    const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+    const int turns = model.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 32767, 0, 0}, 5122, "VEC4", 4, true);
+    model.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}, {"samplers", {{{"input", times}, {"output", turns}}}}}};
+    Scene scene;
+    loadGltf(model.write(Path(testing::TempDir()) / "lodestir_animation" / "model.gltf"), scene, none);
+    ASSERT_EQ(scene.animation.size(), 1u);
+    EXPECT_FLOAT_EQ(scene.animationLength, 1);
+    const glm::mat4 quarter = scene.nodeMatrices(15)[0];  // 0.5 s of half a turn about +Y
+    EXPECT_NEAR(quarter[0].z, -1, 1e-4);
+    EXPECT_NEAR(quarter[2].x, 1, 1e-4);
+}
+
+// If this fails, a wrong sampler reads past its keys.
+TEST(Animation, RefusesWrongSamplers) {
+    const auto refusal = [](const std::vector<float>& times, std::size_t values, const char* interpolation) {
+        GltfModel model;
+        model.addTriangle();
+        const int input = model.accessor(times, 5126, "SCALAR", 1), output = model.positions(std::vector<float>(values * 3, 0.0f));
+        model.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+                                     {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}}};
+        try {
+            Scene scene;
+            loadGltf(model.write(Path(testing::TempDir()) / "lodestir_animation" / "wrong.gltf"), scene, none);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refusal({0, 1}, 2, "LINEAR"), "");
+    EXPECT_NE(refusal({0, 1}, 1, "LINEAR").find("/animations/0/samplers/0/output: 1 values for 2 keys, expected 2"), std::string::npos);
+    EXPECT_NE(refusal({0, 1}, 2, "CUBICSPLINE").find("expected 6"), std::string::npos);
+    EXPECT_NE(refusal({1, 0}, 2, "LINEAR").find("times must rise, key 1 does not"), std::string::npos);
+    EXPECT_NE(refusal({-1, 0}, 2, "LINEAR").find("time -1 of key 0"), std::string::npos);
+    EXPECT_NE(refusal({0, 1}, 2, "BEZIER").find("there is no interpolation \"BEZIER\""), std::string::npos);
+}
+
+// If this fails, camera keys are missed: linear between, constant outside.
+TEST(Camera, KeysMixLinearly) {
+    Scene scene;
+    scene.camera.keys = {{.frame = 10, .position = {0, 0, 0}, .target = {0, 0, -1}, .fovy = 0.5f, .focus = 1},
+                         {.frame = 20, .position = {4, 0, 0}, .target = {4, 0, -3}, .fovy = 0.7f, .focus = 3}};
+    EXPECT_NEAR(scene.cameraAt(0).position.x, 0, 1e-6);
+    EXPECT_NEAR(scene.cameraAt(12.5f).position.x, 1, 1e-5);
+    EXPECT_NEAR(scene.cameraAt(15).fovy, 0.6, 1e-6);
+    EXPECT_NEAR(scene.cameraAt(15).focus, 2, 1e-6);
+    EXPECT_NEAR(scene.cameraAt(99).position.x, 4, 1e-6);
+}
+
+// If this fails, a camera that rides on a node looks along another axis than its -Z.
+TEST(Camera, RidesOnItsNode) {
+    Scene scene;
+    const float h = std::sqrt(0.5f);
+    scene.nodes = {{.name = "cart", .translation = {1, 2, 3}, .rotation = glm::quat(h, 0, h, 0), .scale = {2, 2, 2}}};  // a quarter turn to the left
+    scene.camera = {.keys = {{.focus = 5}}, .node = 0};
+    const CameraKey pose = scene.cameraAt(3);
+    EXPECT_NEAR(pose.position.z, 3, 1e-6);
+    EXPECT_NEAR(pose.target.x, 1 - 5, 1e-5);
+    EXPECT_NEAR(pose.target.z, 3, 1e-5);
+    EXPECT_NEAR(pose.up.y, 1, 1e-6);
+}
+
+// If this fails, models are cut off or are specks when no camera is given: every corner is in the frame, one nearly touches its edge.
+TEST(Camera, FramesBounds) {
+    for (const std::array<glm::vec3, 2> bounds : {std::array<glm::vec3, 2>{glm::vec3(-1), glm::vec3(1)}, {glm::vec3(10, 0, 0), glm::vec3(10.02f, 5, 0.1f)}, {glm::vec3(-50, -1, -50), glm::vec3(50, 1, 50)}}) {
+        const CameraKey camera = frameBounds(bounds);
+        const glm::vec3 forward = glm::normalize(camera.target - camera.position), right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+        float fullest = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 p = glm::vec3(bounds[std::size_t(corner & 1)].x, bounds[std::size_t(corner >> 1 & 1)].y, bounds[std::size_t(corner >> 2)].z) - camera.position;
+            const float depth = glm::dot(p, forward), half = std::tan(camera.fovy / 2) * depth;
+            ASSERT_GT(depth, 0);
+            fullest = std::max({fullest, std::abs(glm::dot(p, up)) / half, std::abs(glm::dot(p, right)) / (half * 16 / 9)});
+        }
+        EXPECT_LT(fullest, 1);
+        EXPECT_GT(fullest, 0.8);
+    }
+}
+
+}  // namespace
+}  // namespace lodestir
