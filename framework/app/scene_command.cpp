@@ -36,7 +36,8 @@ struct Facts {
 template <class T> std::size_t bytesOf(const std::vector<T>& values) { return values.size() * sizeof(T); }
 
 std::size_t bytesOf(const MeshLevel& l) {
-    return bytesOf(l.positions) + bytesOf(l.normals) + bytesOf(l.tangents) + bytesOf(l.uv0) + bytesOf(l.uv1) + bytesOf(l.colors) + bytesOf(l.triangles) + bytesOf(l.materials);
+    return bytesOf(l.positions) + bytesOf(l.normals) + bytesOf(l.tangents) + bytesOf(l.uv0) + bytesOf(l.uv1) + bytesOf(l.colors) +
+           bytesOf(l.triangles) + bytesOf(l.materials);
 }
 
 Facts gather(const Scene& scene) {
@@ -51,7 +52,8 @@ Facts gather(const Scene& scene) {
         }
         facts.uniqueTriangles += m.triangles[0];
         const auto glows = [&](std::uint32_t material) { return scene.materials[material].emission != glm::vec3(0); };
-        emissive.push_back(static_cast<std::size_t>(std::count_if(mesh.levels[0].materials.begin(), mesh.levels[0].materials.end(), glows)));
+        emissive.push_back(
+            static_cast<std::size_t>(std::count_if(mesh.levels[0].materials.begin(), mesh.levels[0].materials.end(), glows)));
     }
     for (const Instance& instance : scene.instances) {
         MeshFacts& m = facts.meshes[instance.mesh];
@@ -159,8 +161,9 @@ void print(const Scene& scene, const Facts& facts) {
     const auto line = [](std::string_view name, const std::string& text) { fmt::print("{:12} {}\n", name, text); };
     line("scene", scene.file.string());
     if (!scene.about.empty()) line("about", scene.about);
-    line("triangles", fmt::format("{} in {} meshes; {} in {} instances; {} emissive{}", facts.uniqueTriangles, facts.meshes.size(), facts.instancedTriangles,
-                                  scene.instances.size(), facts.emissiveTriangles, scene.droppedTriangles ? fmt::format("; {} without area left out", scene.droppedTriangles) : ""));
+    line("triangles", fmt::format("{} in {} meshes; {} in {} instances; {} emissive{}", facts.uniqueTriangles, facts.meshes.size(),
+                                  facts.instancedTriangles, scene.instances.size(), facts.emissiveTriangles,
+                                  scene.droppedTriangles ? fmt::format("; {} without area left out", scene.droppedTriangles) : ""));
     constexpr std::size_t shown = 12;
     std::vector<const MeshFacts*> largest;
     for (const MeshFacts& m : facts.meshes) largest.push_back(&m);
@@ -171,7 +174,8 @@ void print(const Scene& scene, const Facts& facts) {
             levels += fmt::format("{}{}", level ? " > " : "", largest[i]->triangles[level]);
             if (level > 0) levels += fmt::format(" (error {:.3g})", largest[i]->errors[level]);
         }
-        fmt::print("{:12} {}: {} triangles, {} instance{}\n", i == 0 ? "meshes" : "", largest[i]->name, levels, largest[i]->instances, largest[i]->instances == 1 ? "" : "s");
+        fmt::print("{:12} {}: {} triangles, {} instance{}\n", i == 0 ? "meshes" : "", largest[i]->name, levels, largest[i]->instances,
+                   largest[i]->instances == 1 ? "" : "s");
     }
     if (largest.size() > shown) fmt::print("{:12} and {} smaller ones\n", "", largest.size() - shown);
     line("materials", fmt::format("{}, {} textures", scene.materials.size(), scene.textures.size()));
@@ -180,19 +184,23 @@ void print(const Scene& scene, const Facts& facts) {
     if (!scene.animation.empty()) line("animation", fmt::format("{} channels, {:.3g} s", scene.animation.size(), scene.animationLength));
     line("levels", fmt::format("policy {}", nameOf(scene.lod.mode)));
     const CameraKey camera = scene.cameraAt(0);
-    line("camera", fmt::format("at {}, towards {}, {:.3g} degrees{}", triple(camera.position), triple(camera.target), glm::degrees(camera.fovy),
-                               camera.aperture > 0 ? fmt::format(", lens {:.3g}, focus {:.3g}", camera.aperture, camera.focus) : ""));
+    line("camera",
+         fmt::format("at {}, towards {}, {:.3g} degrees{}", triple(camera.position), triple(camera.target), glm::degrees(camera.fovy),
+                     camera.aperture > 0 ? fmt::format(", lens {:.3g}, focus {:.3g}", camera.aperture, camera.focus) : ""));
     const auto bounds = scene.bounds();
     if (!scene.instances.empty()) line("bounds", triple(bounds[0]) + " to " + triple(bounds[1]));
-    line("memory", fmt::format("geometry {}, textures {}, environment {}", megabytes(facts.geometryBytes), megabytes(facts.textureBytes), megabytes(facts.environmentBytes)));
+    line("memory", fmt::format("geometry {}, textures {}, environment {}", megabytes(facts.geometryBytes), megabytes(facts.textureBytes),
+                               megabytes(facts.environmentBytes)));
     for (const std::string& note : scene.notes) line("note", note);
 }
 
 int describe(const Options& options) {
     const Scene scene = loadScene(options.scene);
     const Facts facts = gather(scene);
-    if (options.json) fmt::print("{}\n", toJson(scene, facts).dump());
-    else print(scene, facts);
+    if (options.json)
+        fmt::print("{}\n", toJson(scene, facts).dump());
+    else
+        print(scene, facts);
     return 0;
 }
 

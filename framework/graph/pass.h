@@ -71,7 +71,8 @@ public:
     Pass(const Pass&) = delete;
     Pass& operator=(const Pass&) = delete;
     virtual ~Pass();                     // rule: constructing a pass never touches the GPU
-    /// Default: dispatches the shader of LODESTIR_PASS over the first output.
+    /// Default: dispatches the shader of LODESTIR_PASS over the first output: an image's pixels, the frame's pixels where it is a buffer
+    /// with elements per pixel, else the buffer's elements.
     virtual void execute(Frame& frame);
     std::string_view shader;             ///< set from LODESTIR_PASS
 };

@@ -15,23 +15,23 @@ constexpr std::size_t largestWithoutData = std::size_t(1) << 26;
 
 int sizeOf(int componentType) {
     switch (componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-        default: return 0;
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
+    default: return 0;
     }
 }
 
 int componentsOf(int type) {
     switch (type) {
-        case TINYGLTF_TYPE_SCALAR: return 1;
-        case TINYGLTF_TYPE_VEC2: return 2;
-        case TINYGLTF_TYPE_VEC3: return 3;
-        case TINYGLTF_TYPE_VEC4: return 4;
-        default: return 0;
+    case TINYGLTF_TYPE_SCALAR: return 1;
+    case TINYGLTF_TYPE_VEC2: return 2;
+    case TINYGLTF_TYPE_VEC3: return 3;
+    case TINYGLTF_TYPE_VEC4: return 4;
+    default: return 0;
     }
 }
 
@@ -50,18 +50,18 @@ std::uint32_t loadUnsigned(const std::byte* bytes, int size) {
 /// One component as a number: f = c / max for unsigned, max(c / max, -1) for signed normalised integers.
 float loadNumber(const std::byte* bytes, int componentType, bool normalized) {
     switch (componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: {
-            const float c = load<std::int8_t>(bytes);
-            return normalized ? std::max(c / 127, -1.0f) : c;
-        }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return normalized ? load<std::uint8_t>(bytes) / 255.0f : load<std::uint8_t>(bytes);
-        case TINYGLTF_COMPONENT_TYPE_SHORT: {
-            const float c = load<std::int16_t>(bytes);
-            return normalized ? std::max(c / 32767, -1.0f) : c;
-        }
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return normalized ? load<std::uint16_t>(bytes) / 65535.0f : load<std::uint16_t>(bytes);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return static_cast<float>(load<std::uint32_t>(bytes) / (normalized ? 4294967295.0 : 1.0));
-        default: return load<float>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_BYTE: {
+        const float c = load<std::int8_t>(bytes);
+        return normalized ? std::max(c / 127, -1.0f) : c;
+    }
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return normalized ? load<std::uint8_t>(bytes) / 255.0f : load<std::uint8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_SHORT: {
+        const float c = load<std::int16_t>(bytes);
+        return normalized ? std::max(c / 32767, -1.0f) : c;
+    }
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return normalized ? load<std::uint16_t>(bytes) / 65535.0f : load<std::uint16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return static_cast<float>(load<std::uint32_t>(bytes) / (normalized ? 4294967295.0 : 1.0));
+    default: return load<float>(bytes);
     }
 }
 
@@ -79,7 +79,8 @@ std::span<const std::byte> bufferViewBytes(const GltfFile& file, int view) {
     }
     const std::span<const std::byte> buffer = file.buffers[static_cast<std::size_t>(v.buffer)];
     if (v.byteOffset > buffer.size() || v.byteLength > buffer.size() - v.byteOffset) {
-        throw file.error(pointer, fmt::format("bytes {} to {} are not all inside buffer {} of {} bytes", v.byteOffset, v.byteOffset + v.byteLength, v.buffer, buffer.size()));
+        throw file.error(pointer, fmt::format("bytes {} to {} are not all inside buffer {} of {} bytes", v.byteOffset,
+                                              v.byteOffset + v.byteLength, v.buffer, buffer.size()));
     }
     return buffer.subspan(v.byteOffset, v.byteLength);
 }
@@ -93,7 +94,8 @@ Accessor::Accessor(const GltfFile& file, int index, const std::string& user) : f
     componentSize_ = sizeOf(source_->componentType);
     components_ = componentsOf(source_->type);
     count_ = source_->count;
-    if (componentSize_ == 0) throw file.error(pointer_ + "/componentType", fmt::format("component type {} is none of glTF's", source_->componentType));
+    if (componentSize_ == 0)
+        throw file.error(pointer_ + "/componentType", fmt::format("component type {} is none of glTF's", source_->componentType));
     if (components_ == 0) throw file.error(pointer_ + "/type", "a matrix cannot be used here");
     elementSize_ = static_cast<std::size_t>(componentSize_ * components_);
 
@@ -109,18 +111,21 @@ Accessor::Accessor(const GltfFile& file, int index, const std::string& user) : f
     }
 }
 
-Accessor::Elements Accessor::locate(int view, std::size_t offset, std::size_t elementSize, std::size_t count, bool useStride, const std::string& what) const {
+Accessor::Elements Accessor::locate(int view, std::size_t offset, std::size_t elementSize, std::size_t count, bool useStride,
+                                    const std::string& what) const {
     const std::span<const std::byte> bytes = bufferViewBytes(file_, view);
     const std::size_t viewStride = useStride ? file_.model.bufferViews[static_cast<std::size_t>(view)].byteStride : 0;
     const std::size_t stride = viewStride ? viewStride : elementSize;
     if (stride < elementSize) {
-        throw file_.error(pointer_, fmt::format("an element has {} bytes, more than {} buffer view's stride of {}", elementSize, what, stride));
+        throw file_.error(pointer_,
+                          fmt::format("an element has {} bytes, more than {} buffer view's stride of {}", elementSize, what, stride));
     }
     if (count == 0) return {};
     const bool firstFits = offset <= bytes.size() && elementSize <= bytes.size() - offset;
     if (!firstFits || (count - 1) > (bytes.size() - offset - elementSize) / stride) {
-        throw file_.error(pointer_, fmt::format("{} elements of {} bytes, {} bytes apart, from byte {} on leave {} buffer view {} of {} bytes",
-                                                count, elementSize, stride, offset, what, view, bytes.size()));
+        throw file_.error(pointer_,
+                          fmt::format("{} elements of {} bytes, {} bytes apart, from byte {} on leave {} buffer view {} of {} bytes", count,
+                                      elementSize, stride, offset, what, view, bytes.size()));
     }
     return {bytes.subspan(offset), stride};
 }
@@ -128,7 +133,8 @@ Accessor::Elements Accessor::locate(int view, std::size_t offset, std::size_t el
 std::vector<std::uint32_t> Accessor::sparseIndices() const {
     const auto& sparse = source_->sparse;
     const int type = sparse.indices.componentType, size = sizeOf(type);
-    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
+    if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
         throw file_.error(pointer_ + "/sparse/indices/componentType", "sparse indices must be unsigned integers");
     }
     if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > count_) {
@@ -139,7 +145,8 @@ std::vector<std::uint32_t> Accessor::sparseIndices() const {
     std::vector<std::uint32_t> result(count);
     for (std::size_t i = 0; i < count; ++i) {
         result[i] = loadUnsigned(source.bytes.data() + i * source.stride, size);
-        if (result[i] >= count_) throw file_.error(pointer_ + "/sparse/indices", fmt::format("sparse index {} is past the {} elements", result[i], count_));
+        if (result[i] >= count_)
+            throw file_.error(pointer_ + "/sparse/indices", fmt::format("sparse index {} is past the {} elements", result[i], count_));
         if (i > 0 && result[i] <= result[i - 1]) throw file_.error(pointer_ + "/sparse/indices", "sparse indices must rise");
     }
     return result;
@@ -165,7 +172,8 @@ std::vector<float> Accessor::floats() const {
 
 std::vector<std::uint32_t> Accessor::indices() const {
     const int type = source_->componentType;
-    const bool unsignedType = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    const bool unsignedType = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                              type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (!unsignedType || components_ != 1) throw file_.error(pointer_, "indices must be unsigned integer scalars");
     return gather<std::uint32_t>([&](const std::byte* element, std::uint32_t* out) { *out = loadUnsigned(element, componentSize_); });
 }

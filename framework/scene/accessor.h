@@ -21,8 +21,8 @@ public:
     Accessor(const GltfFile& file, int index, const std::string& user);
 
     std::size_t count() const { return count_; }
-    int components() const { return components_; }            ///< of one element, 1 to 4
-    const std::string& pointer() const { return pointer_; }   ///< JSON pointer, for messages
+    int components() const { return components_; }           ///< of one element, 1 to 4
+    const std::string& pointer() const { return pointer_; }  ///< JSON pointer, for messages
 
     /// count * components numbers; normalised integers become [0, 1] or [-1, 1] (section 3.6.2.2), other integers keep their value.
     std::vector<float> floats() const;
@@ -34,7 +34,8 @@ private:
         std::span<const std::byte> bytes;  ///< from the first element on
         std::size_t stride = 0;
     };
-    Elements locate(int view, std::size_t offset, std::size_t elementSize, std::size_t count, bool useStride, const std::string& what) const;
+    Elements locate(int view, std::size_t offset, std::size_t elementSize, std::size_t count, bool useStride,
+                    const std::string& what) const;
     std::vector<std::uint32_t> sparseIndices() const;
     template <class T, class Read> std::vector<T> gather(const Read& read) const;
 

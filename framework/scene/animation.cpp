@@ -21,7 +21,8 @@ glm::vec4 unit(const glm::vec4& v) {
 /// Cubic Hermite spline between two keys of (in-tangent, value, out-tangent), tangents per second (appendix C.5).
 glm::vec4 hermite(const glm::vec4* from, const glm::vec4* to, float t, float duration) {
     const float t2 = t * t, t3 = t2 * t;
-    return (2 * t3 - 3 * t2 + 1) * from[1] + duration * (t3 - 2 * t2 + t) * from[2] + (-2 * t3 + 3 * t2) * to[1] + duration * (t3 - t2) * to[0];
+    return (2 * t3 - 3 * t2 + 1) * from[1] + duration * (t3 - 2 * t2 + t) * from[2] + (-2 * t3 + 3 * t2) * to[1] +
+           duration * (t3 - t2) * to[0];
 }
 
 }  // namespace
@@ -43,9 +44,9 @@ glm::vec4 evaluate(const AnimationChannel& channel, float time) {
     const auto next = static_cast<std::size_t>(after - times.begin()), last = next - 1;
     const float duration = times[next] - times[last], t = (time - times[last]) / duration;
     switch (channel.interpolation) {
-        case Interpolation::step: return done(key(last));
-        case Interpolation::cubic: return done(hermite(&channel.values[3 * last], &channel.values[3 * next], t, duration));
-        case Interpolation::linear: break;
+    case Interpolation::step: return done(key(last));
+    case Interpolation::cubic: return done(hermite(&channel.values[3 * last], &channel.values[3 * next], t, duration));
+    case Interpolation::linear: break;
     }
     if (rotation) return asVector(glm::slerp(asQuaternion(unit(key(last))), asQuaternion(unit(key(next))), t));
     return glm::mix(key(last), key(next), t);
@@ -60,9 +61,12 @@ std::vector<glm::mat4> Scene::nodeMatrices(float frame) const {
     for (const AnimationChannel& channel : animation) {
         const glm::vec4 value = evaluate(channel, time);
         Node& node = posed[channel.node];
-        if (channel.value == AnimatedValue::translation) node.translation = glm::vec3(value);
-        else if (channel.value == AnimatedValue::scale) node.scale = glm::vec3(value);
-        else node.rotation = asQuaternion(value);
+        if (channel.value == AnimatedValue::translation)
+            node.translation = glm::vec3(value);
+        else if (channel.value == AnimatedValue::scale)
+            node.scale = glm::vec3(value);
+        else
+            node.rotation = asQuaternion(value);
     }
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const glm::mat4 local = localMatrix(animation.empty() ? nodes[i] : posed[i]);

@@ -119,7 +119,8 @@ void Atmosphere::tabulateMultiple(const dvec3& groundAlbedo) {
     parallelFor(multiple_.size(), multipleColumns, [&](std::size_t begin, std::size_t end) {
         for (std::size_t entry = begin; entry < end; ++entry) {
             const int row = static_cast<int>(entry) / multipleColumns, column = static_cast<int>(entry) % multipleColumns;
-            const double altitude = std::max(altitudeOf(row / (multipleRows - 1.0)), 0.001), sunSine = 2 * column / (multipleColumns - 1.0) - 1;
+            const double altitude = std::max(altitudeOf(row / (multipleRows - 1.0)), 0.001),
+                         sunSine = 2 * column / (multipleColumns - 1.0) - 1;
             dvec3 second(0), kept(0);
             for (int i = 0; i < directions * directions; ++i) {  // a grid of equal solid angles over the sphere
                 const double sine = 1 - 2 * (i / directions + 0.5) / directions, azimuth = 2 * pi * (i % directions + 0.5) / directions;
@@ -132,7 +133,8 @@ void Atmosphere::tabulateMultiple(const dvec3& groundAlbedo) {
                     const double to = length * (double(k) / steps) * (double(k) / steps), middle = 0.5 * (from + to);
                     const double height = altitudeAlong(altitude, sine, middle), r = groundRadius + height;
                     const Coefficients air = at(height);
-                    const dvec3 step = exponential(-air.extinction * (to - from)), gained = through * (air.rayleigh + air.mie) * (1.0 - step) / air.extinction;
+                    const dvec3 step = exponential(-air.extinction * (to - from)),
+                                gained = through * (air.rayleigh + air.mie) * (1.0 - step) / air.extinction;
                     const double sunThere = ((groundRadius + altitude) * sunSine + middle * cosine) / r;
                     second += gained * sunTransmittance(height, sunThere) * shadow(height, sunThere) / (4 * pi);
                     kept += gained;
@@ -159,7 +161,8 @@ AirLight Atmosphere::look(double viewSine, double sunSine, double azimuthCosine)
     AirLight light;
     light.ground = viewSine < horizonSine(eyeAltitude);
     const double length = light.ground ? distanceToGround(eyeAltitude, viewSine) : distanceToTop(eyeAltitude, viewSine);
-    const double cosine = viewSine * sunSine + std::sqrt(std::max(0.0, (1 - viewSine * viewSine) * (1 - sunSine * sunSine))) * azimuthCosine;
+    const double cosine =
+        viewSine * sunSine + std::sqrt(std::max(0.0, (1 - viewSine * viewSine) * (1 - sunSine * sunSine))) * azimuthCosine;
     double from = 0;
     for (int i = 1; i <= steps; ++i) {
         const double to = length * (double(i) / steps) * (double(i) / steps), middle = 0.5 * (from + to);

@@ -10,10 +10,10 @@ namespace lodestir {
 
 /// What the air between the eye and the end of a ray adds and leaves, for sunlight of irradiance 1 above it.
 struct AirLight {
-    glm::dvec3 rayleigh{0}, mie{0};    ///< single scattering, still to be multiplied by the phase functions
-    glm::dvec3 multiple{0};            ///< second and higher orders
-    glm::dvec3 transmittance{1};       ///< of what lies at the end
-    bool ground = false;               ///< the ray ends at the ground
+    glm::dvec3 rayleigh{0}, mie{0};  ///< single scattering, still to be multiplied by the phase functions
+    glm::dvec3 multiple{0};          ///< second and higher orders
+    glm::dvec3 transmittance{1};     ///< of what lies at the end
+    bool ground = false;             ///< the ray ends at the ground
 };
 
 class Atmosphere {

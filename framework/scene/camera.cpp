@@ -23,8 +23,9 @@ CameraKey mixKeys(const CameraKey& a, const CameraKey& b, float t) {
 CameraKey keyAt(const std::vector<CameraKey>& keys, float frame) {
     if (keys.empty()) return {};
     const auto after = std::upper_bound(keys.begin(), keys.end(), frame, [](float f, const CameraKey& key) { return f < key.frame; });
-    CameraKey key = after == keys.begin() ? keys.front() : after == keys.end() ? keys.back()
-                                                          : mixKeys(after[-1], *after, (frame - after[-1].frame) / (after->frame - after[-1].frame));
+    CameraKey key = after == keys.begin() ? keys.front()
+                    : after == keys.end() ? keys.back()
+                                          : mixKeys(after[-1], *after, (frame - after[-1].frame) / (after->frame - after[-1].frame));
     key.frame = frame;
     return key;
 }
@@ -46,7 +47,8 @@ CameraKey frameBounds(const std::array<glm::vec3, 2>& bounds) {
     const bool empty = bounds[0].x > bounds[1].x;
     const glm::vec3 low = empty ? glm::vec3(-1) : bounds[0], high = empty ? glm::vec3(1) : bounds[1];
     const glm::vec3 target = 0.5f * (low + high);
-    const glm::vec3 back = glm::normalize(glm::vec3(0.55f, 0.4f, 1)), right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back)), up = glm::cross(back, right);
+    const glm::vec3 back = glm::normalize(glm::vec3(0.55f, 0.4f, 1)), right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back)),
+                    up = glm::cross(back, right);
     const float tangent = std::tan(fovy / 2);
     float distance = 1e-6f;
     for (int corner = 0; corner < 8; ++corner) {

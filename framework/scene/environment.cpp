@@ -35,7 +35,9 @@ glm::vec3 environmentIrradiance(const Environment& environment, glm::vec3 normal
         for (int x = 0; x < environment.width; ++x) {
             const glm::vec2 uv((float(x) + 0.5f) / float(environment.width), (float(y) + 0.5f) / float(environment.height));
             const double cosine = glm::dot(glm::dvec3(normal), glm::dvec3(environmentDirection(uv, environment.rotation)));
-            if (cosine > 0) sum += glm::dvec3(environment.radiance[std::size_t(y) * std::size_t(environment.width) + std::size_t(x)]) * (cosine * solidAngle);
+            if (cosine > 0)
+                sum += glm::dvec3(environment.radiance[std::size_t(y) * std::size_t(environment.width) + std::size_t(x)]) *
+                       (cosine * solidAngle);
         }
     }
     return glm::vec3(sum);
@@ -43,7 +45,9 @@ glm::vec3 environmentIrradiance(const Environment& environment, glm::vec3 normal
 
 Environment loadEnvironmentMap(const Path& path, std::vector<std::string>& notes) {
     const ImageData image = readImage(path);
-    if (image.channels < 3) throw Error({path.string()}, fmt::format("an environment map needs red, green and blue, this image has {} channels", image.channels));
+    if (image.channels < 3)
+        throw Error({path.string()},
+                    fmt::format("an environment map needs red, green and blue, this image has {} channels", image.channels));
     Environment environment{.type = EnvironmentType::map, .width = image.width, .height = image.height};
     const std::size_t count = std::size_t(image.width) * std::size_t(image.height), channels = std::size_t(image.channels);
     environment.radiance.resize(count);
@@ -56,7 +60,9 @@ Environment loadEnvironmentMap(const Path& path, std::vector<std::string>& notes
     }
     const std::string name = path.filename().string();
     if (bad > 0) notes.push_back(fmt::format("{}: {} texels that are negative or not finite are black", name, bad));
-    if (image.width != 2 * image.height) notes.push_back(fmt::format("{}: {}x{} is not twice as wide as high; it is read as a full sphere", name, image.width, image.height));
+    if (image.width != 2 * image.height)
+        notes.push_back(
+            fmt::format("{}: {}x{} is not twice as wide as high; it is read as a full sphere", name, image.width, image.height));
     return environment;
 }
 

@@ -52,7 +52,8 @@ void Fields::integer(const char* key, int& value, int least, int most) {
     try {
         const std::int64_t read = member->asInt(fmt::format("\"{}\"", key));
         if (read < least || read > most) {
-            problems_.add(member->where(), fmt::format("\"{}\" of {} is {}, outside its range", key, what_, read), least == most ? fmt::format("allowed: {}", least) : fmt::format("allowed: {} to {}", least, most));
+            problems_.add(member->where(), fmt::format("\"{}\" of {} is {}, outside its range", key, what_, read),
+                          least == most ? fmt::format("allowed: {}", least) : fmt::format("allowed: {} to {}", least, most));
             return;
         }
         value = static_cast<int>(read);
@@ -85,8 +86,10 @@ void Fields::vector(const char* key, glm::vec3& value) {
 void Fields::color(const char* key, glm::vec3& value) {
     glm::vec3 read = value;
     vector(key, read);
-    if (std::min({read.r, read.g, read.b}) >= 0) value = read;
-    else problems_.add(find(key)->where(), fmt::format("\"{}\" of {} has a negative component", key, what_));
+    if (std::min({read.r, read.g, read.b}) >= 0)
+        value = read;
+    else
+        problems_.add(find(key)->where(), fmt::format("\"{}\" of {} has a negative component", key, what_));
 }
 
 void Fields::choice(const char* key, std::size_t& value, const std::vector<std::string>& names) {
@@ -95,8 +98,10 @@ void Fields::choice(const char* key, std::size_t& value, const std::vector<std::
     try {
         const std::string& name = member->asString(fmt::format("\"{}\"", key));
         const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end()) problems_.add(member->where(), fmt::format("\"{}\" is no {} of {}", name, key, what_), didYouMean(name, names));
-        else value = static_cast<std::size_t>(found - names.begin());
+        if (found == names.end())
+            problems_.add(member->where(), fmt::format("\"{}\" is no {} of {}", name, key, what_), didYouMean(name, names));
+        else
+            value = static_cast<std::size_t>(found - names.begin());
     } catch (const Error& error) {
         problems_.add(error);
     }
@@ -109,7 +114,8 @@ std::vector<double> numbersOf(const Json& value, const std::string& what, std::s
     std::vector<double> result;
     for (const Json& item : value.items()) {
         result.push_back(item.asNumber(fmt::format("each element of {}", what)));
-        if (!std::isfinite(static_cast<float>(result.back()))) throw Error(item.where(), fmt::format("an element of {} is too large", what));
+        if (!std::isfinite(static_cast<float>(result.back())))
+            throw Error(item.where(), fmt::format("an element of {} is too large", what));
     }
     return result;
 }

@@ -22,10 +22,11 @@ public:
     /// More keys that are known here though nobody asks for them.
     void allow(std::initializer_list<const char*> keys);
 
-    const Json* find(const char* key);      ///< nullptr when absent
-    const Json* require(const char* key);   ///< absent: a problem and nullptr
+    const Json* find(const char* key);     ///< nullptr when absent
+    const Json* require(const char* key);  ///< absent: a problem and nullptr
 
-    void number(const char* key, float& value, double least = -std::numeric_limits<double>::infinity(), double most = std::numeric_limits<double>::infinity());
+    void number(const char* key, float& value, double least = -std::numeric_limits<double>::infinity(),
+                double most = std::numeric_limits<double>::infinity());
     void integer(const char* key, int& value, int least, int most);
     void text(const char* key, std::string& value);
     void vector(const char* key, glm::vec3& value);

@@ -19,28 +19,37 @@ std::optional<AnimatedValue> animatedValue(const std::string& path) {
 }
 
 void readKeys(const GltfFile& file, const tinygltf::AnimationSampler& sampler, const std::string& pointer, AnimationChannel& channel) {
-    if (sampler.interpolation == "STEP") channel.interpolation = Interpolation::step;
-    else if (sampler.interpolation == "CUBICSPLINE") channel.interpolation = Interpolation::cubic;
+    if (sampler.interpolation == "STEP")
+        channel.interpolation = Interpolation::step;
+    else if (sampler.interpolation == "CUBICSPLINE")
+        channel.interpolation = Interpolation::cubic;
     else if (sampler.interpolation != "LINEAR") {
-        throw file.error(pointer + "/interpolation", fmt::format("there is no interpolation \"{}\"", sampler.interpolation), "known: STEP, LINEAR, CUBICSPLINE");
+        throw file.error(pointer + "/interpolation", fmt::format("there is no interpolation \"{}\"", sampler.interpolation),
+                         "known: STEP, LINEAR, CUBICSPLINE");
     }
     const Accessor input(file, sampler.input, pointer + "/input"), output(file, sampler.output, pointer + "/output");
     if (input.components() != 1) throw file.error(pointer + "/input", "times must be scalars");
     channel.times = input.floats();
     if (channel.times.empty()) throw file.error(pointer + "/input", "an animation needs at least one key");
     for (std::size_t i = 0; i < channel.times.size(); ++i) {
-        if (!std::isfinite(channel.times[i]) || channel.times[i] < 0) throw file.error(pointer + "/input", fmt::format("time {} of key {} is not allowed", channel.times[i], i));
-        if (i > 0 && channel.times[i] <= channel.times[i - 1]) throw file.error(pointer + "/input", fmt::format("times must rise, key {} does not", i));
+        if (!std::isfinite(channel.times[i]) || channel.times[i] < 0)
+            throw file.error(pointer + "/input", fmt::format("time {} of key {} is not allowed", channel.times[i], i));
+        if (i > 0 && channel.times[i] <= channel.times[i - 1])
+            throw file.error(pointer + "/input", fmt::format("times must rise, key {} does not", i));
     }
     const int components = channel.value == AnimatedValue::rotation ? 4 : 3;
     const std::size_t expected = channel.times.size() * (channel.interpolation == Interpolation::cubic ? 3 : 1);
-    if (output.components() != components) throw file.error(pointer + "/output", fmt::format("expected {} components, got {}", components, output.components()));
-    if (output.count() != expected) throw file.error(pointer + "/output", fmt::format("{} values for {} keys, expected {}", output.count(), channel.times.size(), expected));
+    if (output.components() != components)
+        throw file.error(pointer + "/output", fmt::format("expected {} components, got {}", components, output.components()));
+    if (output.count() != expected)
+        throw file.error(pointer + "/output",
+                         fmt::format("{} values for {} keys, expected {}", output.count(), channel.times.size(), expected));
     const std::vector<float> values = output.floats();
     for (std::size_t i = 0; i < expected; ++i) {
         glm::vec4 value(0);
         for (int c = 0; c < components; ++c) value[c] = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
-        if (!std::isfinite(value.x + value.y + value.z + value.w)) throw file.error(pointer + "/output", fmt::format("value {} is not finite", i));
+        if (!std::isfinite(value.x + value.y + value.z + value.w))
+            throw file.error(pointer + "/output", fmt::format("value {} is not finite", i));
         channel.values.push_back(value);
     }
 }
@@ -62,11 +71,13 @@ void loadGltfAnimations(GltfImport& import) {
             const std::string pointer = fmt::format("/animations/{}/channels/{}", a, c);
             if (source.target_node < 0) continue;
             if (static_cast<std::size_t>(source.target_node) >= import.nodes.size()) {
-                import.problem(pointer + "/target/node", fmt::format("there is no node {}, the file has {}", source.target_node, import.nodes.size()));
+                import.problem(pointer + "/target/node",
+                               fmt::format("there is no node {}, the file has {}", source.target_node, import.nodes.size()));
                 continue;
             }
             if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= animations[a].samplers.size()) {
-                import.problem(pointer + "/sampler", fmt::format("there is no sampler {}, the animation has {}", source.sampler, animations[a].samplers.size()));
+                import.problem(pointer + "/sampler",
+                               fmt::format("there is no sampler {}, the animation has {}", source.sampler, animations[a].samplers.size()));
                 continue;
             }
             const std::uint32_t node = import.nodes[static_cast<std::size_t>(source.target_node)];
@@ -81,7 +92,8 @@ void loadGltfAnimations(GltfImport& import) {
             }
             AnimationChannel channel{.node = node, .value = *value};
             try {
-                readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)], fmt::format("/animations/{}/samplers/{}", a, source.sampler), channel);
+                readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)],
+                         fmt::format("/animations/{}/samplers/{}", a, source.sampler), channel);
             } catch (const Error& error) {
                 import.problems.add(error);
                 continue;

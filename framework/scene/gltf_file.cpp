@@ -16,9 +16,17 @@ namespace lodestir {
 namespace {
 
 constexpr std::array supportedExtensions{
-    "KHR_lights_punctual",  "KHR_materials_emissive_strength", "KHR_materials_ior",         "KHR_materials_transmission",
-    "KHR_materials_volume", "KHR_materials_unlit",             "KHR_mesh_quantization",     "KHR_materials_pbrSpecularGlossiness",
-    "MSFT_lod",             "KHR_texture_transform",           "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_materials_pbrSpecularGlossiness",
+    "MSFT_lod",
+    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",
 };
 
 constexpr std::uint32_t glbMagic = 0x46546c67, jsonChunk = 0x4e4f534a, binChunk = 0x004e4942;  // "glTF", "JSON", "BIN\0"
@@ -50,7 +58,8 @@ Container openBinary(std::span<const std::byte> bytes, const std::string& file) 
         if (length - offset < 8) fail(fmt::format("a chunk header is cut short at byte {}", offset));
         const std::size_t size = word(bytes, offset);
         const std::uint32_t type = word(bytes, offset + 4);
-        if (size > length - offset - 8) fail(fmt::format("the chunk at byte {} says {} bytes, {} are left", offset, size, length - offset - 8));
+        if (size > length - offset - 8)
+            fail(fmt::format("the chunk at byte {} says {} bytes, {} are left", offset, size, length - offset - 8));
         const auto data = bytes.subspan(offset + 8, size);
         if (index == 0 && type != jsonChunk) fail("its first chunk is not JSON");
         if (index == 0) container.text = {reinterpret_cast<const char*>(data.data()), data.size()};
@@ -97,9 +106,11 @@ std::pair<int, int> parseVersion(const std::string& text) {
 void checkVersion(const GltfFile& file) {
     const Json* asset = file.json.find("asset");
     const Json* version = asset ? asset->find("version") : nullptr;
-    if (!version || !version->isString()) throw file.error("/asset/version", "no glTF version is given", "a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}");
+    if (!version || !version->isString())
+        throw file.error("/asset/version", "no glTF version is given", "a glTF 2.0 file says \"asset\": {\"version\": \"2.0\"}");
     if (parseVersion(version->asString()).first != 2) {
-        throw file.error("/asset/version", fmt::format("glTF version \"{}\" is not supported", version->asString()), "convert the model to glTF 2.0");
+        throw file.error("/asset/version", fmt::format("glTF version \"{}\" is not supported", version->asString()),
+                         "convert the model to glTF 2.0");
     }
     const Json* least = asset->find("minVersion");
     if (least && least->isString() && parseVersion(least->asString()) > std::pair{2, 0}) {
@@ -118,7 +129,8 @@ void checkExtensions(const GltfFile& file, Problems& problems) {
             hint = "decompress the model first, for example with: gltf-transform copy (or gltfpack without -c)";
         else if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" || extension == "EXT_texture_avif")
             hint = "convert its textures to PNG or JPEG";
-        problems.add(file.binary ? Where{file.path.string()} : name.where(), fmt::format("the model needs extension {}, which is not supported", extension), hint);
+        problems.add(file.binary ? Where{file.path.string()} : name.where(),
+                     fmt::format("the model needs extension {}, which is not supported", extension), hint);
     }
 }
 
@@ -143,10 +155,12 @@ void readBuffers(GltfFile& file, const Container& container, Problems& problems)
             } else if (i == 0 && container.hasBinary) {
                 bytes.assign(container.binary.begin(), container.binary.end());
             } else if (!buffer.find("extensions")) {  // a fallback buffer of a compression extension may be empty
-                throw file.error(pointer, file.binary ? "the buffer has no URI and the file no binary chunk for it" : "the buffer has no URI");
+                throw file.error(pointer,
+                                 file.binary ? "the buffer has no URI and the file no binary chunk for it" : "the buffer has no URI");
             }
             if (bytes.size() < static_cast<std::size_t>(expected) && (uri || container.hasBinary)) {
-                throw file.error(pointer, fmt::format("the buffer says {} bytes, its data has {}", expected, bytes.size()), "is the file cut short?");
+                throw file.error(pointer, fmt::format("the buffer says {} bytes, its data has {}", expected, bytes.size()),
+                                 "is the file cut short?");
             }
             bytes.resize(std::min(bytes.size(), static_cast<std::size_t>(expected)));
         } catch (const Error& error) {

@@ -15,9 +15,9 @@ namespace lodestir {
 /// they say, and images that nothing uses. Bytes of `buffers` are read by Accessor and bufferViewBytes alone.
 struct GltfFile {
     Path path;
-    Json json;               ///< for places, buffers and images
-    bool binary = false;     ///< a GLB: places inside its JSON mean nothing to people
-    tinygltf::Model model;   ///< all but buffers and images
+    Json json;              ///< for places, buffers and images
+    bool binary = false;    ///< a GLB: places inside its JSON mean nothing to people
+    tinygltf::Model model;  ///< all but buffers and images
     std::vector<std::vector<std::byte>> buffers;
 
     /// Error at the value that a JSON pointer names ("/meshes/0/primitives/1"), or at the deepest part of it that exists.

@@ -11,7 +11,8 @@ namespace {
 
 void checkNode(const GltfFile& file, int node, const std::string& user) {
     const std::size_t count = file.model.nodes.size();
-    if (node < 0 || static_cast<std::size_t>(node) >= count) throw file.error(user, fmt::format("there is no node {}, the file has {}", node, count));
+    if (node < 0 || static_cast<std::size_t>(node) >= count)
+        throw file.error(user, fmt::format("there is no node {}, the file has {}", node, count));
 }
 
 /// Parent of each node, -1 for roots; every node has at most one and no node is its own ancestor.
@@ -24,7 +25,8 @@ std::vector<int> checkedParents(const GltfFile& file) {
             const std::string user = fmt::format("/nodes/{}/children/{}", n, c);
             checkNode(file, child, user);
             int& parent = parents[static_cast<std::size_t>(child)];
-            if (parent >= 0) throw file.error(user, fmt::format("node {} is a child of node {} too", child, parent), "a node has one parent at most");
+            if (parent >= 0)
+                throw file.error(user, fmt::format("node {} is a child of node {} too", child, parent), "a node has one parent at most");
             parent = static_cast<int>(n);
         }
     }
@@ -35,7 +37,8 @@ std::vector<int> checkedParents(const GltfFile& file) {
         int at = static_cast<int>(n);
         while (at >= 0 && !safe[static_cast<std::size_t>(at)]) {
             chain.push_back(static_cast<std::size_t>(at));
-            if (chain.size() > nodes.size()) throw file.error(fmt::format("/nodes/{}/children", at), fmt::format("node {} is among its own descendants", at));
+            if (chain.size() > nodes.size())
+                throw file.error(fmt::format("/nodes/{}/children", at), fmt::format("node {} is among its own descendants", at));
             at = parents[static_cast<std::size_t>(at)];
         }
         for (std::size_t link : chain) safe[link] = 1;
@@ -53,7 +56,8 @@ std::vector<int> sceneRoots(const GltfFile& file, const std::vector<int>& parent
         return roots;
     }
     const int scene = std::max(model.defaultScene, 0);
-    if (static_cast<std::size_t>(scene) >= model.scenes.size()) throw file.error("/scene", fmt::format("there is no scene {}, the file has {}", scene, model.scenes.size()));
+    if (static_cast<std::size_t>(scene) >= model.scenes.size())
+        throw file.error("/scene", fmt::format("there is no scene {}, the file has {}", scene, model.scenes.size()));
     const std::vector<int>& listed = model.scenes[static_cast<std::size_t>(scene)].nodes;
     std::vector<char> isListed(parents.size(), 0), isRoot(parents.size(), 0);
     for (std::size_t i = 0; i < listed.size(); ++i) {

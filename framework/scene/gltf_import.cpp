@@ -25,6 +25,10 @@ float numberOf(const tinygltf::Value* object, const char* key, float otherwise) 
     return std::isfinite(value) ? value : otherwise;
 }
 
+int integerOf(const tinygltf::Value* object, const char* key, int otherwise) {
+    return object && object->Has(key) && object->Get(key).IsInt() ? object->Get(key).GetNumberAsInt() : otherwise;
+}
+
 glm::vec3 vectorOf(const tinygltf::Value* object, const char* key, glm::vec3 otherwise) {
     if (!object || !object->Has(key)) return otherwise;
     const tinygltf::Value& array = object->Get(key);

@@ -16,10 +16,10 @@ struct GltfImport {
     const GltfFile& file;
     Scene& scene;
     Problems& problems;
-    std::uint32_t materialBase = 0;         ///< Scene::materials index of the file's material 0
-    std::uint32_t defaultMaterial = none;   ///< of primitives without one, made when first needed
-    std::vector<std::uint32_t> nodes;       ///< Scene::nodes index of each node of the file, `none` where it is not in the scene
-    std::set<std::string> noted;            ///< each note is said once
+    std::uint32_t materialBase = 0;        ///< Scene::materials index of the file's material 0
+    std::uint32_t defaultMaterial = none;  ///< of primitives without one, made when first needed
+    std::vector<std::uint32_t> nodes;      ///< Scene::nodes index of each node of the file, `none` where it is not in the scene
+    std::set<std::string> noted;           ///< each note is said once
 
     /// Adds a note "file name: text" to the scene.
     void note(const std::string& text);
@@ -32,6 +32,8 @@ const tinygltf::Value* findExtension(const tinygltf::ExtensionMap& extensions, c
 
 /// Member `key` of an extension object (which may be nullptr) as a number, else `otherwise`.
 float numberOf(const tinygltf::Value* object, const char* key, float otherwise);
+/// The same for an integer that fits into an int.
+int integerOf(const tinygltf::Value* object, const char* key, int otherwise);
 /// The same for an array of at least three numbers.
 glm::vec3 vectorOf(const tinygltf::Value* object, const char* key, glm::vec3 otherwise);
 

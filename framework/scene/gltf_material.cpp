@@ -16,15 +16,18 @@ struct TextureUse {
     const tinygltf::Value* transform = nullptr;
 };
 
-template <class Info> TextureUse useOf(const Info& info) { return {info.index, info.texCoord, findExtension(info.extensions, "KHR_texture_transform")}; }
+template <class Info> TextureUse useOf(const Info& info) {
+    return {info.index, info.texCoord, findExtension(info.extensions, "KHR_texture_transform")};
+}
 
 TextureUse useOf(const tinygltf::Value* object, const char* key) {
     if (!object || !object->Has(key) || !object->Get(key).IsObject()) return {};
     const tinygltf::Value& info = object->Get(key);
-    TextureUse use{static_cast<int>(numberOf(&info, "index", -1)), static_cast<int>(numberOf(&info, "texCoord", 0)), nullptr};
+    TextureUse use{integerOf(&info, "index", -1), integerOf(&info, "texCoord", 0), nullptr};
     if (!info.Has("extensions") || !info.Get("extensions").IsObject()) return use;
     const tinygltf::Value& extensions = info.Get("extensions");
-    if (extensions.Has("KHR_texture_transform") && extensions.Get("KHR_texture_transform").IsObject()) use.transform = &extensions.Get("KHR_texture_transform");
+    if (extensions.Has("KHR_texture_transform") && extensions.Get("KHR_texture_transform").IsObject())
+        use.transform = &extensions.Get("KHR_texture_transform");
     return use;
 }
 
@@ -47,13 +50,18 @@ public:
         readSpecularGlossiness();
         readEmission();
         readVolume();
-        if (source_.alphaMode == "MASK") material_.alphaMode = AlphaMode::mask;
-        else if (source_.alphaMode == "BLEND") material_.alphaMode = AlphaMode::blend;
-        else if (source_.alphaMode != "OPAQUE") import_.problem(pointer_ + "/alphaMode", fmt::format("\"{}\" is no alpha mode", source_.alphaMode), "known: OPAQUE, MASK, BLEND");
+        if (source_.alphaMode == "MASK")
+            material_.alphaMode = AlphaMode::mask;
+        else if (source_.alphaMode == "BLEND")
+            material_.alphaMode = AlphaMode::blend;
+        else if (source_.alphaMode != "OPAQUE")
+            import_.problem(pointer_ + "/alphaMode", fmt::format("\"{}\" is no alpha mode", source_.alphaMode),
+                            "known: OPAQUE, MASK, BLEND");
         material_.alphaCutoff = std::max(static_cast<float>(source_.alphaCutoff), 0.0f);
         material_.doubleSided = source_.doubleSided;
         if (findExtension(source_.extensions, "KHR_materials_unlit")) import_.note("unlit materials are shown as lit ones");
-        if (findExtension(source_.extensions, "MSFT_lod")) import_.note("levels of detail of materials are ignored; the finest material is used");
+        if (findExtension(source_.extensions, "MSFT_lod"))
+            import_.note("levels of detail of materials are ignored; the finest material is used");
         return std::move(material_);
     }
 
@@ -62,7 +70,7 @@ private:
         if (use.index < 0) return {};
         TextureSlot result;
         result.texture = textures_.use(use.index, srgb, pointer_ + place);
-        const int uvSet = static_cast<int>(numberOf(use.transform, "texCoord", static_cast<float>(use.uvSet)));
+        const int uvSet = integerOf(use.transform, "texCoord", use.uvSet);
         if (uvSet > 1 || uvSet < 0) import_.note("textures that read TEXCOORD_2 or later read TEXCOORD_0 instead");
         result.uvSet = uvSet == 1 ? 1 : 0;
         result.offset = pairOf(use.transform, "offset", {0, 0});
@@ -74,9 +82,11 @@ private:
     void readBase() {
         const auto& pbr = source_.pbrMetallicRoughness;
         if (pbr.baseColorFactor.size() == 4) {
-            for (int i = 0; i < 4; ++i) material_.baseColor[i] = std::clamp(static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]), 0.0f, 1.0f);
+            for (int i = 0; i < 4; ++i)
+                material_.baseColor[i] = std::clamp(static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]), 0.0f, 1.0f);
         } else {
-            import_.problem(pointer_ + "/pbrMetallicRoughness/baseColorFactor", fmt::format("a base colour has 4 numbers, this has {}", pbr.baseColorFactor.size()));
+            import_.problem(pointer_ + "/pbrMetallicRoughness/baseColorFactor",
+                            fmt::format("a base colour has 4 numbers, this has {}", pbr.baseColorFactor.size()));
         }
         material_.metallic = std::clamp(static_cast<float>(pbr.metallicFactor), 0.0f, 1.0f);
         material_.roughness = std::clamp(static_cast<float>(pbr.roughnessFactor), 0.0f, 1.0f);
@@ -88,37 +98,46 @@ private:
         material_.occlusionStrength = std::clamp(static_cast<float>(source_.occlusionTexture.strength), 0.0f, 1.0f);
     }
 
-    /// The archived model has no exact counterpart: what reflects most of its light in colour becomes a metal, the rest keeps its diffuse colour.
+    /// The archived model has no exact counterpart: what reflects most of its light in colour becomes a metal, the rest keeps its
+    /// diffuse colour.
     void readSpecularGlossiness() {
         const tinygltf::Value* gloss = findExtension(source_.extensions, "KHR_materials_pbrSpecularGlossiness");
         if (!gloss) return;
         import_.note("specular-glossiness materials are approximated by metallic-roughness ones");
         constexpr float brightestDielectric = 0.25f;  // reflectance of diamond is 0.17; metals start near 0.4
-        const glm::vec3 specular = vectorOf(gloss, "specularFactor", glm::vec3(1)), diffuse = vectorOf(gloss, "diffuseFactor", glm::vec3(1));
+        const glm::vec3 specular = vectorOf(gloss, "specularFactor", glm::vec3(1)),
+                        diffuse = vectorOf(gloss, "diffuseFactor", glm::vec3(1));
         const bool diffuseMapped = gloss->Has("diffuseTexture"), specularMapped = gloss->Has("specularGlossinessTexture");
         const float brightest = std::max({specular.r, specular.g, specular.b});
-        const bool metal = !specularMapped && !diffuseMapped && brightest > brightestDielectric && brightest > std::max({diffuse.r, diffuse.g, diffuse.b});
+        const bool metal =
+            !specularMapped && !diffuseMapped && brightest > brightestDielectric && brightest > std::max({diffuse.r, diffuse.g, diffuse.b});
         material_.metallic = metal ? 1.0f : 0.0f;
         material_.roughness = 1 - std::clamp(numberOf(gloss, "glossinessFactor", 1), 0.0f, 1.0f);
         if (specularMapped) material_.roughness = std::max(material_.roughness, 0.5f);  // the map lowers glossiness; its mean is not known
         material_.baseColor = glm::vec4(glm::clamp(metal ? specular : diffuse, 0.0f, 1.0f), 1.0f);
-        material_.baseColorMap = slot(useOf(gloss, "diffuseTexture"), true, "/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture");
+        material_.baseColorMap =
+            slot(useOf(gloss, "diffuseTexture"), true, "/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture");
         material_.metallicRoughnessMap = {};
     }
 
     void readEmission() {
-        for (int i = 0; i < 3; ++i) material_.emission[i] = std::max(static_cast<float>(source_.emissiveFactor[static_cast<std::size_t>(i)]), 0.0f);
-        material_.emission *= std::max(numberOf(findExtension(source_.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1), 0.0f);
+        for (int i = 0; i < 3; ++i)
+            material_.emission[i] = std::max(static_cast<float>(source_.emissiveFactor[static_cast<std::size_t>(i)]), 0.0f);
+        material_.emission *=
+            std::max(numberOf(findExtension(source_.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1), 0.0f);
         material_.emissiveMap = slot(useOf(source_.emissiveTexture), true, "/emissiveTexture");
     }
 
     void readVolume() {
         const tinygltf::Value* transmission = findExtension(source_.extensions, "KHR_materials_transmission");
         material_.transmission = std::clamp(numberOf(transmission, "transmissionFactor", 0), 0.0f, 1.0f);
-        material_.transmissionMap = slot(useOf(transmission, "transmissionTexture"), false, "/extensions/KHR_materials_transmission/transmissionTexture");
+        material_.transmissionMap =
+            slot(useOf(transmission, "transmissionTexture"), false, "/extensions/KHR_materials_transmission/transmissionTexture");
         const float ior = numberOf(findExtension(source_.extensions, "KHR_materials_ior"), "ior", 1.5f);
-        if (ior >= 1) material_.ior = ior;
-        else import_.note("indices of refraction below 1 are replaced by 1.5");
+        if (ior >= 1)
+            material_.ior = ior;
+        else
+            import_.note("indices of refraction below 1 are replaced by 1.5");
 
         const tinygltf::Value* volume = findExtension(source_.extensions, "KHR_materials_volume");
         material_.solid = numberOf(volume, "thicknessFactor", 0) > 0;

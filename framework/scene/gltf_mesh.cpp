@@ -68,13 +68,15 @@ private:
             throw import_.file.error(user, fmt::format("{} cannot have {} components", name, accessor.components()));
         }
         if (!level_.positions.empty() && accessor.count() != level_.positions.size()) {
-            throw import_.file.error(user, fmt::format("{} has {} elements, POSITION has {}", name, accessor.count(), level_.positions.size()));
+            throw import_.file.error(user,
+                                     fmt::format("{} has {} elements, POSITION has {}", name, accessor.count(), level_.positions.size()));
         }
         const std::vector<float> values = accessor.floats();
         std::vector<V> result(accessor.count(), fill);
         const int components = accessor.components();
         for (std::size_t i = 0; i < result.size(); ++i) {
-            for (int c = 0; c < components; ++c) result[i][c] = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
+            for (int c = 0; c < components; ++c)
+                result[i][c] = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
         }
         return result;
     }
@@ -102,7 +104,8 @@ private:
             const std::size_t count = level_.positions.size();
             const auto wrong = std::find_if(indices.begin(), indices.end(), [&](std::uint32_t i) { return i >= count; });
             if (wrong != indices.end()) {
-                throw import_.file.error(pointer_ + "/indices", fmt::format("index {} (at {} of {}) is past the {} vertices", *wrong, wrong - indices.begin(), indices.size(), count));
+                throw import_.file.error(pointer_ + "/indices", fmt::format("index {} (at {} of {}) is past the {} vertices", *wrong,
+                                                                            wrong - indices.begin(), indices.size(), count));
             }
         } else {
             indices.resize(level_.positions.size());
@@ -110,14 +113,17 @@ private:
         }
         if (source_.mode == TINYGLTF_MODE_TRIANGLES) {
             if (indices.size() % 3 != 0) import_.note("vertices that make no whole triangle are left out");
-            for (std::size_t i = 0; i + 2 < indices.size(); i += 3) level_.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+            for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+                level_.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
             return;
         }
         // glTF 2.0, section 3.7.2.1: triangle i of a strip and of a fan.
         const bool strip = source_.mode == TINYGLTF_MODE_TRIANGLE_STRIP;
         for (std::size_t i = 0; i + 2 < indices.size(); ++i) {
-            if (strip) level_.triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
-            else level_.triangles.emplace_back(indices[i + 1], indices[i + 2], indices[0]);
+            if (strip)
+                level_.triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
+            else
+                level_.triangles.emplace_back(indices[i + 1], indices[i + 2], indices[0]);
         }
     }
 
@@ -179,7 +185,8 @@ private:
             const glm::vec4 t = level_.tangents[v];
             const glm::vec3 n = level_.normals[v], projected = glm::vec3(t) - n * glm::dot(n, glm::vec3(t));
             const float length = glm::length(projected);
-            level_.tangents[v] = glm::vec4(length > 1e-6f && std::isfinite(length) ? projected / length : perpendicular(n), t.w < 0 ? -1.0f : 1.0f);
+            level_.tangents[v] =
+                glm::vec4(length > 1e-6f && std::isfinite(length) ? projected / length : perpendicular(n), t.w < 0 ? -1.0f : 1.0f);
         }
     }
 
@@ -190,7 +197,8 @@ private:
 };
 
 /// Adds `more` to `values`; where only one side has values, the other's are filled.
-template <class T, class Fill> void extend(std::vector<T>& values, std::size_t before, std::vector<T> more, std::size_t count, const Fill& fill) {
+template <class T, class Fill>
+void extend(std::vector<T>& values, std::size_t before, std::vector<T> more, std::size_t count, const Fill& fill) {
     if (values.empty() && more.empty()) return;
     while (values.size() < before) values.push_back(fill(values.size()));
     if (!more.empty()) values.insert(values.end(), more.begin(), more.end());
@@ -203,7 +211,8 @@ void append(MeshLevel& level, MeshLevel part) {
     level.materials.insert(level.materials.end(), part.materials.begin(), part.materials.end());
     level.positions.insert(level.positions.end(), part.positions.begin(), part.positions.end());
     level.normals.insert(level.normals.end(), part.normals.begin(), part.normals.end());
-    extend(level.tangents, before, std::move(part.tangents), count, [&](std::size_t v) { return glm::vec4(perpendicular(level.normals[v]), 1); });
+    extend(level.tangents, before, std::move(part.tangents), count,
+           [&](std::size_t v) { return glm::vec4(perpendicular(level.normals[v]), 1); });
     extend(level.uv0, before, std::move(part.uv0), count, [](std::size_t) { return glm::vec2(0); });
     extend(level.uv1, before, std::move(part.uv1), count, [](std::size_t) { return glm::vec2(0); });
     extend(level.colors, before, std::move(part.colors), count, [](std::size_t) { return glm::vec4(1); });

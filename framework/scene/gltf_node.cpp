@@ -17,7 +17,8 @@ namespace {
 
 template <class V> V vectorFrom(const GltfFile& file, const std::vector<double>& values, V otherwise, const std::string& pointer) {
     if (values.empty()) return otherwise;
-    if (values.size() != static_cast<std::size_t>(V::length())) throw file.error(pointer, fmt::format("expected {} numbers, got {}", V::length(), values.size()));
+    if (values.size() != static_cast<std::size_t>(V::length()))
+        throw file.error(pointer, fmt::format("expected {} numbers, got {}", V::length(), values.size()));
     V result;
     for (int i = 0; i < V::length(); ++i) result[i] = static_cast<float>(values[static_cast<std::size_t>(i)]);
     return result;
@@ -29,7 +30,8 @@ Node nodeFrom(const GltfFile& file, int index) {
     Node node;
     node.name = source.name.empty() ? fmt::format("node {}", index) : source.name;
     if (!source.matrix.empty()) {
-        if (source.matrix.size() != 16) throw file.error(pointer + "/matrix", fmt::format("expected 16 numbers, got {}", source.matrix.size()));
+        if (source.matrix.size() != 16)
+            throw file.error(pointer + "/matrix", fmt::format("expected 16 numbers, got {}", source.matrix.size()));
         glm::mat4 matrix;
         for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = static_cast<float>(source.matrix[static_cast<std::size_t>(i)]);
         node.matrix = matrix;
@@ -57,10 +59,13 @@ public:
         import_.nodes[n] = place;
         import_.scene.nodes.push_back(std::move(node));
         if (source.skin >= 0) import_.note("skins are ignored; meshes keep their base shape");
-        if (source.mesh >= 0) addMesh(visit.node, place);
-        else if (findExtension(source.extensions, "MSFT_lod")) import_.note("levels of detail of nodes without a mesh of their own are ignored");
+        if (source.mesh >= 0)
+            addMesh(visit.node, place);
+        else if (findExtension(source.extensions, "MSFT_lod"))
+            import_.note("levels of detail of nodes without a mesh of their own are ignored");
         if (source.camera >= 0) addCamera(source.camera, visit.node, place);
-        if (const tinygltf::Value* punctual = findExtension(source.extensions, "KHR_lights_punctual")) addLight(*punctual, visit.node, place);
+        if (const tinygltf::Value* punctual = findExtension(source.extensions, "KHR_lights_punctual"))
+            addLight(*punctual, visit.node, place);
     }
 
 private:
@@ -70,8 +75,10 @@ private:
         const tinygltf::Node& source = model_.nodes[static_cast<std::size_t>(node)];
         const std::string& meshName = import_.scene.meshes[mesh].name;
         const std::string name = source.name.empty() ? meshName : source.name;
-        if (const tinygltf::Value* many = findExtension(source.extensions, "EXT_mesh_gpu_instancing")) addMany(*many, node, place, mesh, name);
-        else import_.scene.instances.push_back({name, mesh, place});
+        if (const tinygltf::Value* many = findExtension(source.extensions, "EXT_mesh_gpu_instancing"))
+            addMany(*many, node, place, mesh, name);
+        else
+            import_.scene.instances.push_back({name, mesh, place});
     }
 
     /// EXT_mesh_gpu_instancing: a child node with an instance for each element of the attributes.
@@ -81,9 +88,12 @@ private:
         const auto values = [&](const char* key, int components) {
             std::vector<float> result;
             if (!extension.Has("attributes") || !extension.Get("attributes").Has(key)) return result;
-            const Accessor accessor(import_.file, static_cast<int>(numberOf(&extension.Get("attributes"), key, -1)), pointer + "/" + key);
-            if (accessor.components() != components) throw import_.file.error(pointer + "/" + key, fmt::format("expected {} components, got {}", components, accessor.components()));
-            if (count != 0 && accessor.count() != count) throw import_.file.error(pointer + "/" + key, "the attributes have different counts");
+            const Accessor accessor(import_.file, integerOf(&extension.Get("attributes"), key, -1), pointer + "/" + key);
+            if (accessor.components() != components)
+                throw import_.file.error(pointer + "/" + key,
+                                         fmt::format("expected {} components, got {}", components, accessor.components()));
+            if (count != 0 && accessor.count() != count)
+                throw import_.file.error(pointer + "/" + key, "the attributes have different counts");
             count = accessor.count();
             return accessor.floats();
         };
@@ -114,7 +124,8 @@ private:
         for (int level : chain) {
             const glm::mat4 placement = level == node ? glm::mat4(1) : glm::inverse(base) * localMatrix(nodeFrom(import_.file, level));
             placements.push_back(placement);
-            key.emplace_back(model_.nodes[static_cast<std::size_t>(level)].mesh, std::vector<float>(&placement[0][0], &placement[0][0] + 16));
+            key.emplace_back(model_.nodes[static_cast<std::size_t>(level)].mesh,
+                             std::vector<float>(&placement[0][0], &placement[0][0] + 16));
         }
         const auto known = meshes_.find(key);
         if (known != meshes_.end()) return known->second;
@@ -129,8 +140,10 @@ private:
         for (std::size_t i = 0; i < chain.size(); ++i) {
             const int index = model_.nodes[static_cast<std::size_t>(chain[i])].mesh;
             const std::string user = fmt::format("/nodes/{}/mesh", chain[i]);
-            if (index >= static_cast<int>(model_.meshes.size())) throw import_.file.error(user, fmt::format("there is no mesh {}, the file has {}", index, model_.meshes.size()));
-            if (i > 0 && !model_.nodes[static_cast<std::size_t>(chain[i])].children.empty()) import_.note("children of nodes that are levels of detail are ignored");
+            if (index >= static_cast<int>(model_.meshes.size()))
+                throw import_.file.error(user, fmt::format("there is no mesh {}, the file has {}", index, model_.meshes.size()));
+            if (i > 0 && !model_.nodes[static_cast<std::size_t>(chain[i])].children.empty())
+                import_.note("children of nodes that are levels of detail are ignored");
             MeshLevel level = index >= 0 ? loadGltfMesh(import_, index) : MeshLevel{};
             if (level.triangles.empty()) {
                 if (i == 0) return none;
@@ -172,7 +185,8 @@ private:
 
     void addCamera(int index, int node, std::uint32_t place) {
         if (index >= static_cast<int>(model_.cameras.size())) {
-            throw import_.file.error(fmt::format("/nodes/{}/camera", node), fmt::format("there is no camera {}, the file has {}", index, model_.cameras.size()));
+            throw import_.file.error(fmt::format("/nodes/{}/camera", node),
+                                     fmt::format("there is no camera {}, the file has {}", index, model_.cameras.size()));
         }
         const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(index)];
         const std::string& name = import_.scene.nodes[place].name;
@@ -191,7 +205,7 @@ private:
     }
 
     void addLight(const tinygltf::Value& punctual, int node, std::uint32_t place) {
-        const int index = static_cast<int>(numberOf(&punctual, "light", -1));
+        const int index = integerOf(&punctual, "light", -1);
         const std::string pointer = fmt::format("/nodes/{}/extensions/KHR_lights_punctual/light", node);
         if (index < 0 || static_cast<std::size_t>(index) >= model_.lights.size()) {
             throw import_.file.error(pointer, fmt::format("there is no light {}, the file has {}", index, model_.lights.size()));
@@ -200,9 +214,13 @@ private:
         const std::string lightPointer = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
         Light light;
         light.name = source.name.empty() ? import_.scene.nodes[place].name : source.name;
-        if (source.type == "spot") light.type = LightType::spot;
-        else if (source.type == "directional") light.type = LightType::directional;
-        else if (source.type != "point") throw import_.file.error(lightPointer + "/type", fmt::format("there is no light type \"{}\"", source.type), "known: point, spot, directional");
+        if (source.type == "spot")
+            light.type = LightType::spot;
+        else if (source.type == "directional")
+            light.type = LightType::directional;
+        else if (source.type != "point")
+            throw import_.file.error(lightPointer + "/type", fmt::format("there is no light type \"{}\"", source.type),
+                                     "known: point, spot, directional");
         light.color = glm::max(vectorFrom(import_.file, source.color, glm::vec3(1), lightPointer + "/color"), 0.0f);
         light.intensity = std::max(static_cast<float>(source.intensity), 0.0f);
         light.range = std::max(static_cast<float>(source.range), 0.0f);

@@ -50,7 +50,8 @@ void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
         throw Error(fmt::format("the image cannot be read: {}", stbi_failure_reason()), "PNG and JPEG are supported");
     }
     if (std::int64_t(width) * height > largestImage) throw Error(fmt::format("the image has {}x{} texels, too many", width, height));
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4),
+                                                           stbi_image_free);
     if (!pixels) throw Error(fmt::format("the image cannot be decoded: {}", stbi_failure_reason()), "is the file cut short?");
     texture.width = width;
     texture.height = height;
@@ -71,13 +72,15 @@ std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
         return none;
     }
     if (static_cast<std::size_t>(texture.source) >= imageCount) {
-        import_.problem(fmt::format("/textures/{}/source", index), fmt::format("there is no image {}, the file has {}", texture.source, imageCount));
+        import_.problem(fmt::format("/textures/{}/source", index),
+                        fmt::format("there is no image {}, the file has {}", texture.source, imageCount));
         return none;
     }
     tinygltf::Sampler sampler;
     if (texture.sampler >= 0) {
         if (static_cast<std::size_t>(texture.sampler) >= model.samplers.size()) {
-            import_.problem(fmt::format("/textures/{}/sampler", index), fmt::format("there is no sampler {}, the file has {}", texture.sampler, model.samplers.size()));
+            import_.problem(fmt::format("/textures/{}/sampler", index),
+                            fmt::format("there is no sampler {}, the file has {}", texture.sampler, model.samplers.size()));
             return none;
         }
         sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
@@ -90,7 +93,9 @@ std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
         const Json *name = image.find("name"), *uri = image.find("uri");
         const bool fileNamed = uri && uri->isString() && !uri->asString().starts_with("data:");
         import_.scene.textures.push_back({
-            .name = name && name->isString() ? name->asString() : fileNamed ? percentDecode(uri->asString()) : fmt::format("image {}", texture.source),
+            .name = name && name->isString() ? name->asString()
+                    : fileNamed              ? percentDecode(uri->asString())
+                                             : fmt::format("image {}", texture.source),
             .srgb = srgb,
             .nearest = nearest,
             .wrapU = std::get<3>(key),
@@ -122,7 +127,8 @@ void GltfTextures::decode() {
                     other.rgba = first.rgba;
                 }
             } catch (const Error& error) {
-                errors[i] = error.problems()[0].where.file == file.path.string() ? error : file.error(fmt::format("/images/{}", index), error);
+                errors[i] =
+                    error.problems()[0].where.file == file.path.string() ? error : file.error(fmt::format("/images/{}", index), error);
             }
         }
     });
@@ -141,7 +147,8 @@ void GltfTextures::leaveOut(int image, std::string_view format) {
         for (std::size_t m = import_.materialBase; m < import_.scene.materials.size(); ++m) {
             Material& material = import_.scene.materials[m];
             if (material.emissiveMap.texture == texture) material.emission = glm::vec3(0);  // the map said where; all of it would be wrong
-            for (TextureSlot* slot : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap, &material.occlusionMap, &material.emissiveMap, &material.transmissionMap}) {
+            for (TextureSlot* slot : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap, &material.occlusionMap,
+                                      &material.emissiveMap, &material.transmissionMap}) {
                 if (slot->texture == texture) *slot = {};
             }
         }

@@ -15,7 +15,9 @@ namespace {
 
 bool hasLight(const Scene& scene) {
     if (!scene.lights.empty()) return true;
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return std::max({m.emission.r, m.emission.g, m.emission.b}) > 0; });
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        return std::max({m.emission.r, m.emission.g, m.emission.b}) > 0;
+    });
 }
 
 void addSky(Scene& scene, bool hasExposure) {
@@ -29,7 +31,8 @@ void addSky(Scene& scene, bool hasExposure) {
 void addCamera(Scene& scene) {
     const CameraKey key = frameBounds(scene.bounds());
     scene.camera = {.keys = {key}};
-    scene.notes.push_back(fmt::format("there is no camera, so the whole is framed from ({:.3g}, {:.3g}, {:.3g})", key.position.x, key.position.y, key.position.z));
+    scene.notes.push_back(fmt::format("there is no camera, so the whole is framed from ({:.3g}, {:.3g}, {:.3g})", key.position.x,
+                                      key.position.y, key.position.z));
 }
 
 /// A camera of the model has no focus distance; the middle of the scene is as good a guess as any.
@@ -58,7 +61,8 @@ std::array<glm::vec3, 2> Scene::bounds() const {
 
 Scene loadScene(const Path& path) {
     std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!std::filesystem::exists(path)) throw Error({path.string()}, "there is no such file");
     Scene scene;
     SceneFileSays says;
@@ -73,8 +77,10 @@ Scene loadScene(const Path& path) {
     if (scene.instances.empty()) scene.notes.push_back("there are no triangles to be seen");
     if (scene.materials.empty()) scene.materials.push_back({.name = "default"});
     if (!says.environment && !hasLight(scene)) addSky(scene, says.exposure);
-    if (scene.camera.keys.empty()) addCamera(scene);
-    else if (scene.camera.node != none) focusModelCamera(scene);
+    if (scene.camera.keys.empty())
+        addCamera(scene);
+    else if (scene.camera.node != none)
+        focusModelCamera(scene);
     return scene;
 }
 

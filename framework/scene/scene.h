@@ -108,7 +108,8 @@ struct Light {
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 enum class AnimatedValue : std::uint8_t { translation, rotation, scale };
 
-/// Keys of one value of one node. `values` has 4 floats a key (xyz0 or quaternion xyzw), 3 * 4 a key for cubic (in-tangent, value, out-tangent).
+/// Keys of one value of one node. `values` has 4 floats a key (xyz0 or quaternion xyzw), 3 * 4 a key for cubic (in-tangent, value,
+/// out-tangent).
 struct AnimationChannel {
     std::uint32_t node = 0;
     AnimatedValue value = AnimatedValue::translation;

@@ -81,7 +81,8 @@ private:
 
     void readModels(const Json* models) {
         if (!models) return;
-        if (!models->isObject()) return problems_.add(models->where(), fmt::format("\"models\" must be an object, not {}", models->kindName()));
+        if (!models->isObject())
+            return problems_.add(models->where(), fmt::format("\"models\" must be an object, not {}", models->kindName()));
         for (const auto& [name, value] : models->members()) {
             Fields fields(value, fmt::format("model \"{}\"", name), problems_);
             std::string file;
@@ -92,7 +93,8 @@ private:
             Path path = path_.parent_path() / file;
             if (!std::filesystem::is_regular_file(path)) path = sceneFolder() / file;
             if (!std::filesystem::is_regular_file(path)) {
-                problems_.add(member->where(), fmt::format("there is no model \"{}\" beside the scene file", file), "generated models lie in the build's scenes folder");
+                problems_.add(member->where(), fmt::format("there is no model \"{}\" beside the scene file", file),
+                              "generated models lie in the build's scenes folder");
                 path.clear();
             }
             models_.push_back({name, path, member->where()});
@@ -124,7 +126,8 @@ private:
             for (Model& model : models_) placeModel(model, addNode({.name = model.name}));
             return;
         }
-        if (!instances->isArray()) return problems_.add(instances->where(), fmt::format("\"instances\" must be an array, not {}", instances->kindName()));
+        if (!instances->isArray())
+            return problems_.add(instances->where(), fmt::format("\"instances\" must be an array, not {}", instances->kindName()));
         std::vector<std::string> names;
         for (const Model& model : models_) names.push_back(model.name);
         for (std::size_t i = 0; i < instances->items().size(); ++i) {
@@ -144,7 +147,9 @@ private:
         fields.vector("translation", node.translation);
         const Json* quaternion = fields.find("rotation");
         const Json* degrees = fields.find("rotationDegrees");
-        if (quaternion && degrees) problems_.add(degrees->where(), fmt::format("{} has two rotations", fields.what()), "give \"rotation\" (a quaternion) or \"rotationDegrees\"");
+        if (quaternion && degrees)
+            problems_.add(degrees->where(), fmt::format("{} has two rotations", fields.what()),
+                          "give \"rotation\" (a quaternion) or \"rotationDegrees\"");
         try {
             if (quaternion) {
                 const std::vector<double> q = numbersOf(*quaternion, "\"rotation\"", 4);
@@ -153,14 +158,20 @@ private:
                 node.rotation = glm::normalize(rotation);
             } else if (degrees) {  // about X first, then Y, then Z
                 const std::vector<double> angles = numbersOf(*degrees, "\"rotationDegrees\"", 3);
-                node.rotation = glm::angleAxis(glm::radians(float(angles[2])), glm::vec3(0, 0, 1)) * glm::angleAxis(glm::radians(float(angles[1])), glm::vec3(0, 1, 0)) *
+                node.rotation = glm::angleAxis(glm::radians(float(angles[2])), glm::vec3(0, 0, 1)) *
+                                glm::angleAxis(glm::radians(float(angles[1])), glm::vec3(0, 1, 0)) *
                                 glm::angleAxis(glm::radians(float(angles[0])), glm::vec3(1, 0, 0));
             }
             if (const Json* scale = fields.find("scale")) {
-                if (scale->isNumber()) node.scale = glm::vec3(float(scale->asNumber()));
-                else if (scale->isArray()) fields.vector("scale", node.scale);
-                else throw Error(scale->where(), fmt::format("\"scale\" must be a number or an array of 3 numbers, not {}", scale->kindName()));
-                if (node.scale.x * node.scale.y * node.scale.z == 0) throw Error(scale->where(), fmt::format("{} has no size", fields.what()), "a scale must not be 0");
+                if (scale->isNumber())
+                    node.scale = glm::vec3(float(scale->asNumber()));
+                else if (scale->isArray())
+                    fields.vector("scale", node.scale);
+                else
+                    throw Error(scale->where(),
+                                fmt::format("\"scale\" must be a number or an array of 3 numbers, not {}", scale->kindName()));
+                if (node.scale.x * node.scale.y * node.scale.z == 0)
+                    throw Error(scale->where(), fmt::format("{} has no size", fields.what()), "a scale must not be 0");
             }
         } catch (const Error& error) {
             problems_.add(error);
@@ -196,7 +207,8 @@ private:
         const Json* schedule = fields.find("schedule");
         fields.finish();
         if (!schedule) return;
-        if (!schedule->isArray()) return problems_.add(schedule->where(), fmt::format("\"schedule\" must be an array, not {}", schedule->kindName()));
+        if (!schedule->isArray())
+            return problems_.add(schedule->where(), fmt::format("\"schedule\" must be an array, not {}", schedule->kindName()));
         for (std::size_t i = 0; i < schedule->items().size(); ++i) {
             Fields entry(schedule->items()[i], fmt::format("switch {} of the schedule", i), problems_);
             LodSwitch change;
@@ -206,23 +218,30 @@ private:
             std::string name;
             entry.text("instance", name);
             entry.finish();
-            if (!instance) scene_.lod.schedule.push_back(change);
-            else if (problems_.empty()) addSwitches(change, name, *instance);  // else names would be missed only because their model failed
+            if (!instance)
+                scene_.lod.schedule.push_back(change);
+            else if (problems_.empty())
+                addSwitches(change, name, *instance);  // else names would be missed only because their model failed
         }
     }
 
-    /// One switch for each instance of that name, or below a node of that name.
+    /// One switch for each instance of that name; where there is none, for each instance below a node of that name.
     void addSwitches(LodSwitch change, const std::string& name, const Json& place) {
-        bool found = false;
-        for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
-            bool named = scene_.instances[i].name == name;
-            for (std::uint32_t node = scene_.instances[i].node; node != none && !named; node = scene_.nodes[node].parent) named = scene_.nodes[node].name == name;
-            if (!named) continue;
-            change.instance = static_cast<std::uint32_t>(i);
-            scene_.lod.schedule.push_back(change);
-            found = true;
-        }
-        if (found) return;
+        const auto add = [&](auto&& isMeant) {
+            const std::size_t before = scene_.lod.schedule.size();
+            for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+                if (!isMeant(scene_.instances[i])) continue;
+                change.instance = static_cast<std::uint32_t>(i);
+                scene_.lod.schedule.push_back(change);
+            }
+            return scene_.lod.schedule.size() > before;
+        };
+        const auto isBelow = [&](const Instance& instance) {
+            std::uint32_t node = instance.node;
+            while (node != none && scene_.nodes[node].name != name) node = scene_.nodes[node].parent;
+            return node != none;
+        };
+        if (add([&](const Instance& instance) { return instance.name == name; }) || add(isBelow)) return;
         std::set<std::string> names;
         for (const Instance& instance : scene_.instances) names.insert(instance.name);
         const std::vector<std::string> candidates(names.begin(), names.end());

@@ -26,8 +26,10 @@ void unitVector(Fields& fields, const char* key, glm::vec3& value) {
     glm::vec3 read = value;
     fields.vector(key, read);
     const float length = glm::length(read);
-    if (length > 0) value = read / length;
-    else fields.problem(fields.find(key)->where(), fmt::format("\"{}\" of {} is zero and has no direction", key, fields.what()));
+    if (length > 0)
+        value = read / length;
+    else
+        fields.problem(fields.find(key)->where(), fmt::format("\"{}\" of {} is zero and has no direction", key, fields.what()));
 }
 
 Environment readSky(Fields& fields) {
@@ -113,7 +115,9 @@ void readLights(const Json& value, Scene& scene, Problems& problems) {
         if (!fields.require("type")) continue;
         fields.choice("type", type, types);
         if (type == types.size()) continue;
-        Light light{.name = fmt::format("light {}", i), .type = static_cast<LightType>(type), .node = static_cast<std::uint32_t>(scene.nodes.size())};
+        Light light{.name = fmt::format("light {}", i),
+                    .type = static_cast<LightType>(type),
+                    .node = static_cast<std::uint32_t>(scene.nodes.size())};
         Node node;
         fields.text("name", light.name);
         fields.color("color", light.color);
@@ -146,14 +150,17 @@ void readCamera(const Json& value, Scene& scene, Problems& problems) {
     bool hasFocus = false;
     CameraKey base;
     const Json* keyframes = fields.find("keyframes");
-    if (!keyframes || fields.find("position") || fields.find("target")) base = readKey(fields, base, hasFocus);
-    else fields.allow({"position", "target", "up", "fovy", "aperture", "focus"});
+    if (!keyframes || fields.find("position") || fields.find("target"))
+        base = readKey(fields, base, hasFocus);
+    else
+        fields.allow({"position", "target", "up", "fovy", "aperture", "focus"});
     fields.finish();
     if (!keyframes) {
         scene.camera.keys = {base};
         return;
     }
-    if (!keyframes->isArray() || keyframes->items().empty()) return problems.add(keyframes->where(), "\"keyframes\" must be an array with at least one key");
+    if (!keyframes->isArray() || keyframes->items().empty())
+        return problems.add(keyframes->where(), "\"keyframes\" must be an array with at least one key");
     std::vector<CameraKey> keys;
     for (std::size_t i = 0; i < keyframes->items().size(); ++i) {
         Fields frame(keyframes->items()[i], fmt::format("keyframe {}", i), problems);
@@ -162,7 +169,8 @@ void readCamera(const Json& value, Scene& scene, Problems& problems) {
         const bool hasFrame = frame.require("frame");
         frame.number("frame", key.frame);
         frame.finish();
-        if (hasFrame && !keys.empty() && key.frame <= keys.back().frame) frame.problem(frame.where(), fmt::format("keyframe {} is not later than the one before", i));
+        if (hasFrame && !keys.empty() && key.frame <= keys.back().frame)
+            frame.problem(frame.where(), fmt::format("keyframe {} is not later than the one before", i));
         keys.push_back(key);
     }
     scene.camera.keys = std::move(keys);

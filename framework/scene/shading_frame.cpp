@@ -84,7 +84,9 @@ std::vector<int> splitMirrored(MeshLevel& level, const std::vector<int>& faceSig
 }  // namespace
 
 glm::vec3 perpendicular(glm::vec3 n) {
-    const glm::vec3 axis = std::abs(n.x) < 0.57735f ? glm::vec3(1, 0, 0) : std::abs(n.y) < 0.57735f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+    const glm::vec3 axis = std::abs(n.x) < 0.57735f   ? glm::vec3(1, 0, 0)
+                           : std::abs(n.y) < 0.57735f ? glm::vec3(0, 1, 0)
+                                                      : glm::vec3(0, 0, 1);
     return glm::normalize(axis - n * glm::dot(n, axis));
 }
 

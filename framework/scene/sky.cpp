@@ -30,16 +30,19 @@ void paintAir(const Atmosphere& air, const dvec3& sun, Environment& map, std::ve
         std::vector<AirLight> around(azimuths + 1);
         for (std::size_t y = begin; y < end; ++y) {
             const double viewSine = std::cos(pi * (double(y) + 0.5) / map.height), viewFlat = std::sqrt(1 - viewSine * viewSine);
-            for (int a = 0; a <= azimuths; ++a) around[static_cast<std::size_t>(a)] = air.look(viewSine, sun.y, std::cos(pi * a / azimuths));
+            for (int a = 0; a <= azimuths; ++a)
+                around[static_cast<std::size_t>(a)] = air.look(viewSine, sun.y, std::cos(pi * a / azimuths));
             for (int x = 0; x < map.width; ++x) {
                 const dvec3 view = texelDirection(x, static_cast<int>(y), map);
                 const double cosine = std::clamp(glm::dot(view, sun), -1.0, 1.0);
-                const double azimuth = flat > 0 && viewFlat > 0 ? std::acos(std::clamp((cosine - viewSine * sun.y) / (flat * viewFlat), -1.0, 1.0)) : 0;
+                const double azimuth =
+                    flat > 0 && viewFlat > 0 ? std::acos(std::clamp((cosine - viewSine * sun.y) / (flat * viewFlat), -1.0, 1.0)) : 0;
                 const double position = azimuth / pi * azimuths;
                 const auto a = static_cast<std::size_t>(std::min(static_cast<int>(position), azimuths - 1));
                 const double t = position - double(a);
-                const auto mixed = [&](dvec3 AirLight::* part) { return glm::mix(around[a].*part, around[a + 1].*part, t); };
-                const dvec3 light = mixed(&AirLight::rayleigh) * Atmosphere::rayleighPhase(cosine) + mixed(&AirLight::mie) * air.miePhase(cosine) + mixed(&AirLight::multiple);
+                const auto mixed = [&](dvec3 AirLight::*part) { return glm::mix(around[a].*part, around[a + 1].*part, t); };
+                const dvec3 light = mixed(&AirLight::rayleigh) * Atmosphere::rayleighPhase(cosine) +
+                                    mixed(&AirLight::mie) * air.miePhase(cosine) + mixed(&AirLight::multiple);
                 const std::size_t texel = y * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
                 map.radiance[texel] = glm::vec3(light * double(solarIrradiance));
                 if (around[a].ground) groundShare[texel] = glm::vec3(around[a].transmittance);
@@ -58,7 +61,8 @@ double shareAboveHorizon(double elevation, double radius) {
 void paintSun(const dvec3& sun, double radius, const dvec3& energy, Environment& map) {
     constexpr int samples = 16;  // per texel and axis
     const double texel = pi / map.height, polar = std::acos(std::clamp(sun.y, -1.0, 1.0)), edge = std::cos(radius);
-    const int first = std::max(0, static_cast<int>((polar - radius) / texel) - 1), last = std::min(map.height - 1, static_cast<int>((polar + radius) / texel) + 1);
+    const int first = std::max(0, static_cast<int>((polar - radius) / texel) - 1),
+              last = std::min(map.height - 1, static_cast<int>((polar + radius) / texel) + 1);
     std::vector<std::pair<std::size_t, double>> covered;
     double total = 0;
     for (int y = first; y <= last; ++y) {
@@ -78,7 +82,8 @@ void paintSun(const dvec3& sun, double radius, const dvec3& energy, Environment&
     }
     if (covered.empty()) {  // a disc between the samples: all of it is in the texel of its centre
         const glm::vec2 uv = environmentUv(glm::vec3(sun), 0);
-        const auto x = std::size_t(std::min(int(uv.x * float(map.width)), map.width - 1)), y = std::size_t(std::min(int(uv.y * float(map.height)), map.height - 1));
+        const auto x = std::size_t(std::min(int(uv.x * float(map.width)), map.width - 1)),
+                   y = std::size_t(std::min(int(uv.y * float(map.height)), map.height - 1));
         covered.emplace_back(y * std::size_t(map.width) + x, 1.0);
         total = 1;
     }
@@ -90,7 +95,8 @@ void paintSun(const dvec3& sun, double radius, const dvec3& energy, Environment&
 
 dvec3 irradianceAtGround(const Sky& sky, const Atmosphere& air) {
     const double elevation = std::asin(unitSun(sky).y), radius = glm::radians(double(sky.sunAngle)) / 2;
-    return air.sunTransmittance(0, std::max(unitSun(sky).y, 0.0)) * shareAboveHorizon(elevation, radius) * double(solarIrradiance) * double(sky.sunStrength);
+    return air.sunTransmittance(0, std::max(unitSun(sky).y, 0.0)) * shareAboveHorizon(elevation, radius) * double(solarIrradiance) *
+           double(sky.sunStrength);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ struct Sky {
     glm::vec3 sunDirection{-0.5f, 0.8f, 0.5f};  ///< towards the sun, any length but 0
     float sunAngle = 0.53f;                     ///< diameter of the disc, degrees
     float sunStrength = 1;                      ///< factor on the disc alone, not on the light it scatters
-    float turbidity = 3;                        ///< haze: 1 is air without dust, 2 very clear, 3 clear, 6 hazy (Preetham et al. 1999, section 2)
-    glm::vec3 ground{0.3f, 0.28f, 0.25f};       ///< albedo of the plain below the horizon
+    float turbidity = 3;                   ///< haze: 1 is air without dust, 2 very clear, 3 clear, 6 hazy (Preetham et al. 1999, section 2)
+    glm::vec3 ground{0.3f, 0.28f, 0.25f};  ///< albedo of the plain below the horizon
 };
 
 /// Irradiance of a surface outside the atmosphere that faces the sun. With it a clear sky has a mean radiance of about 1 when the

@@ -52,7 +52,8 @@ std::vector<std::byte> readDataUri(const std::string& uri) {
 /// "http:", "file:" and the like; a single letter is a drive, not a scheme.
 bool hasScheme(std::string_view uri) {
     std::size_t length = 0;
-    while (length < uri.size() && (std::isalnum(static_cast<unsigned char>(uri[length])) || uri[length] == '+' || uri[length] == '-')) ++length;
+    while (length < uri.size() && (std::isalnum(static_cast<unsigned char>(uri[length])) || uri[length] == '+' || uri[length] == '-'))
+        ++length;
     return length > 1 && length < uri.size() && uri[length] == ':';
 }
 
@@ -94,10 +95,13 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text) {
 
 std::vector<std::byte> readUri(const std::string& uri, const Path& folder) {
     if (uri.starts_with("data:")) return readDataUri(uri);
-    if (hasScheme(uri)) throw Error(fmt::format("\"{}\" is a network or absolute address", shown(uri)), "put the file beside the model and name it by its path");
+    if (hasScheme(uri))
+        throw Error(fmt::format("\"{}\" is a network or absolute address", shown(uri)),
+                    "put the file beside the model and name it by its path");
     Path path = folder / Path(percentDecode(uri));
     if (!std::filesystem::exists(path)) path = folder / Path(uri);
-    if (!std::filesystem::is_regular_file(path)) throw Error(fmt::format("file \"{}\" is missing", (folder / Path(percentDecode(uri))).string()));
+    if (!std::filesystem::is_regular_file(path))
+        throw Error(fmt::format("file \"{}\" is missing", (folder / Path(percentDecode(uri))).string()));
     return readBytes(path);
 }
 

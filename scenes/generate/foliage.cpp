@@ -84,7 +84,8 @@ Model rubberFig(const std::string& name, uint32_t seed, float height, int leaves
         const glm::vec3 out(std::cos(a), 0, std::sin(a));
         const float rise = glm::mix(-0.15f, 1.1f, t * t) + random.between(-0.15f, 0.15f);
         const glm::vec3 along = glm::normalize(out + glm::vec3(0, rise, 0)), root = at(s, t);
-        const float length = height * random.between(0.15f, 0.21f) * (1.15f - 0.35f * t);
+        // A young plant has few leaves, large for its height.
+        const float length = height * (height < 0.6f ? 1.9f : 1.0f) * random.between(0.15f, 0.21f) * (1.15f - 0.35f * t);
         const glm::vec3 stalk = root + along * length * 0.22f;
         const Station petiole[] = {{root, height * 0.0032f}, {stalk, height * 0.0022f}};
         plant.add(materials.stem, tube(petiole, 6));

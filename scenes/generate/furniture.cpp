@@ -152,7 +152,7 @@ Model pendantLamp(const Palette& palette, float drop) {
 
     // Spun dome: outside in black, inside enamelled white, a hair apart so that neither shows through.
     const glm::vec2 dome[] = {{0.016f, 0.050f}, {0.022f, 0.030f}, {0.040f, 0.012f}, {0.100f, -0.020f}, {0.165f, -0.085f}, {0.198f, -0.165f}, {0.205f, -0.200f}};
-    std::vector<glm::vec2> outer = smoothCurve(dome, 8), inner;
+    std::vector<glm::vec2> outer = smoothCurve(dome, 5), inner;
     for (auto p = outer.rbegin(); p != outer.rend(); ++p)
         if (p->y < 0.006f) inner.push_back({std::max(p->x - 0.003f, 0.0f), p->y - 0.002f});
     inner.front() = {0.2025f, -0.2015f};

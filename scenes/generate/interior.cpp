@@ -120,7 +120,7 @@ void addReading(Glb& glb, const Palette& palette, const glm::vec2& rugSize) {
 }
 
 void addWallsAndPlants(Glb& glb, const Palette& palette, const Room& room) {
-    glb.addNode(bookcase(palette, 14, 1.50f, 2.05f), {.translation = {0.72f, 0, room.back}});
+    glb.addNode(bookcase(palette, 14, 1.50f, 2.05f), {.translation = {0.72f, 0, room.back + 0.02f}});   // clear of the skirting board
 
     const auto art = [&](const std::string& name, const Textures& picture) { return glb.addMaterial(glb.dressed({.name = name}, picture)); };
     glb.addNode(pictureFrame("print_1", palette, {0.50f, 0.66f}, 0.06f, palette.birch, art("art_print_1", paintPrint(41, 384, 512))), {.translation = {-1.38f, 1.62f, room.back}});

@@ -167,6 +167,12 @@ void addGarden(Glb& glb, const Palette& palette, const Room& room) {
     bush.add(palette.grass, shrub(640, 3200));
     const int hedge = glb.addMesh(bush);
     Random random(65);
+    // Taller bushes behind the hedge break the skyline.
+    for (int i = 0; i < 9; ++i) {
+        const float z = -16 + 2.1f * float(i) + random.between(-0.8f, 0.8f);
+        glb.addNode("bush_" + std::to_string(i), hedge,
+                    {.translation = {edge - random.between(9, 15), -0.8f, z}, .rotation = turnY(random.between(0, 360)), .scale = glm::vec3(random.between(4, 6))});
+    }
     for (int i = 0; i < 22; ++i) {
         const float z = -17 + 1.05f * float(i) + random.between(-0.2f, 0.2f);
         glb.addNode("hedge_" + std::to_string(i), hedge,

@@ -19,8 +19,8 @@ namespace lodestir::generate {
 namespace {
 
 /// A vessel turned from control points that run up the inside, over the rim and down the outside to the foot; UVs in repeats of the glaze.
-Mesh vessel(std::span<const glm::vec2> control, float scale, int columns = 56) {
-    std::vector<glm::vec2> profile = smoothCurve(control, 6);
+Mesh vessel(std::span<const glm::vec2> control, float scale, int columns = 44) {
+    std::vector<glm::vec2> profile = smoothCurve(control, 4);
     float length = 0, girth = 0;
     for (size_t i = 0; i < profile.size(); ++i) {
         profile[i] *= scale;
@@ -57,7 +57,7 @@ Model mug(const std::string& name, int material) {
                                  {0.45f, 0.5f}, {0.45f, 0.12f}, {0.40f, 0.01f}, {0.36f, 0.0f}, {0.2f, 0.005f}, {0, 0.005f}};
     Model model{name, {}};
     constexpr float height = 0.088f;
-    model.add(material, vessel(control, height, 48));
+    model.add(material, vessel(control, height, 40));
     std::vector<Station> handle;
     for (int i = 0; i <= 14; ++i) {
         const float a = std::numbers::pi_v<float> * (float(i) / 14 * 1.1f - 0.05f);
@@ -96,7 +96,7 @@ Model fruit(const std::string& name, int material, uint32_t seed, float bowlRadi
         const bool lemon = random.next() < 0.4f;
         const glm::vec3 skin = lemon ? glm::vec3(0.78f, 0.56f, 0.05f) : glm::vec3(0.82f, 0.27f, 0.02f);
         const glm::vec3 stretch = lemon ? glm::vec3(0.86f, 1.18f, 0.86f) : glm::vec3(1.02f, 0.95f, 1.02f);
-        Mesh mesh = bent(sphere(40, 24), [&](const glm::vec3& p) {
+        Mesh mesh = bent(sphere(32, 18), [&](const glm::vec3& p) {
             const float tip = lemon ? 0.10f * std::pow(std::abs(p.y), 14.0f) : -0.05f * std::pow(std::max(p.y, 0.0f), 24.0f);
             return p * stretch * (1 + tip + 0.02f * noise.at(p * 2.0f + seat.turn * 9) + 0.006f * noise.at(p * 14.0f));
         }, 180);

@@ -33,7 +33,8 @@ TEST(Animation, StepHoldsAndLinearMixes) {
 // If this fails, rotations take the long way round or change speed: a quarter turn about Z is an eighth at half time.
 TEST(Animation, LinearRotationIsSphericalAndShort) {
     const float h = std::sqrt(0.5f);
-    AnimationChannel channel{.value = AnimatedValue::rotation, .times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, -h, -h}}};  // -q is the same rotation
+    AnimationChannel channel{
+        .value = AnimatedValue::rotation, .times = {0, 1}, .values = {{0, 0, 0, 1}, {0, 0, -h, -h}}};  // -q is the same rotation
     const float a = 3.14159265f / 8;
     expectNear(evaluate(channel, 0.5f), {0, 0, std::sin(a), std::cos(a)});
     expectNear(evaluate(channel, 0.25f), {0, 0, std::sin(a / 2), std::cos(a / 2)});
@@ -58,8 +59,8 @@ TEST(Animation, ClockRepeatsAndHasSpeed) {
     scene.animation = {{.node = 0, .times = {0, 2}, .values = {{0, 0, 0, 0}, {4, 0, 0, 0}}}};
     scene.animationLength = 2;
     scene.framesPerSecond = 10;
-    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].x, 1, 1e-5);  // 0.5 s
-    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].y, 1, 1e-5);  // the child keeps its own place
+    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].x, 1, 1e-5);   // 0.5 s
+    EXPECT_NEAR(scene.nodeMatrices(5)[1][3].y, 1, 1e-5);   // the child keeps its own place
     EXPECT_NEAR(scene.nodeMatrices(25)[1][3].x, 1, 1e-4);  // once around
     scene.animationSpeed = 2;
     EXPECT_NEAR(scene.nodeMatrices(5)[1][3].x, 2, 1e-5);
@@ -71,7 +72,8 @@ TEST(Animation, LoadsFromGltf) {
     model.addTriangle();
     const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
     const int turns = model.accessor(std::vector<std::int16_t>{0, 0, 0, 32767, 0, 32767, 0, 0}, 5122, "VEC4", 4, true);
-    model.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}, {"samplers", {{{"input", times}, {"output", turns}}}}}};
+    model.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}},
+                                 {"samplers", {{{"input", times}, {"output", turns}}}}}};
     Scene scene;
     loadGltf(model.write(Path(testing::TempDir()) / "lodestir_animation" / "model.gltf"), scene, none);
     ASSERT_EQ(scene.animation.size(), 1u);
@@ -121,7 +123,8 @@ TEST(Camera, KeysMixLinearly) {
 TEST(Camera, RidesOnItsNode) {
     Scene scene;
     const float h = std::sqrt(0.5f);
-    scene.nodes = {{.name = "cart", .translation = {1, 2, 3}, .rotation = glm::quat(h, 0, h, 0), .scale = {2, 2, 2}}};  // a quarter turn to the left
+    scene.nodes = {
+        {.name = "cart", .translation = {1, 2, 3}, .rotation = glm::quat(h, 0, h, 0), .scale = {2, 2, 2}}};  // a quarter turn to the left
     scene.camera = {.keys = {{.focus = 5}}, .node = 0};
     const CameraKey pose = scene.cameraAt(3);
     EXPECT_NEAR(pose.position.z, 3, 1e-6);
@@ -132,12 +135,17 @@ TEST(Camera, RidesOnItsNode) {
 
 // If this fails, models are cut off or are specks when no camera is given: every corner is in the frame, one nearly touches its edge.
 TEST(Camera, FramesBounds) {
-    for (const std::array<glm::vec3, 2> bounds : {std::array<glm::vec3, 2>{glm::vec3(-1), glm::vec3(1)}, {glm::vec3(10, 0, 0), glm::vec3(10.02f, 5, 0.1f)}, {glm::vec3(-50, -1, -50), glm::vec3(50, 1, 50)}}) {
+    for (const std::array<glm::vec3, 2> bounds : {std::array<glm::vec3, 2>{glm::vec3(-1), glm::vec3(1)},
+                                                  {glm::vec3(10, 0, 0), glm::vec3(10.02f, 5, 0.1f)},
+                                                  {glm::vec3(-50, -1, -50), glm::vec3(50, 1, 50)}}) {
         const CameraKey camera = frameBounds(bounds);
-        const glm::vec3 forward = glm::normalize(camera.target - camera.position), right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+        const glm::vec3 forward = glm::normalize(camera.target - camera.position), right = glm::normalize(glm::cross(forward, camera.up)),
+                        up = glm::cross(right, forward);
         float fullest = 0;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 p = glm::vec3(bounds[std::size_t(corner & 1)].x, bounds[std::size_t(corner >> 1 & 1)].y, bounds[std::size_t(corner >> 2)].z) - camera.position;
+            const glm::vec3 p =
+                glm::vec3(bounds[std::size_t(corner & 1)].x, bounds[std::size_t(corner >> 1 & 1)].y, bounds[std::size_t(corner >> 2)].z) -
+                camera.position;
             const float depth = glm::dot(p, forward), half = std::tan(camera.fovy / 2) * depth;
             ASSERT_GT(depth, 0);
             fullest = std::max({fullest, std::abs(glm::dot(p, up)) / half, std::abs(glm::dot(p, right)) / (half * 16 / 9)});

@@ -20,9 +20,11 @@ std::pair<glm::dvec3, glm::dvec3> gather(const Environment& map, glm::vec3 direc
     glm::dvec3 energy(0), mean(0);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
-            const glm::vec3 d = environmentDirection({(float(x) + 0.5f) / float(map.width), (float(y) + 0.5f) / float(map.height)}, map.rotation);
+            const glm::vec3 d =
+                environmentDirection({(float(x) + 0.5f) / float(map.width), (float(y) + 0.5f) / float(map.height)}, map.rotation);
             if (glm::dot(d, direction) < std::cos(angle)) continue;
-            const glm::dvec3 light = glm::dvec3(map.radiance[std::size_t(y) * std::size_t(map.width) + std::size_t(x)]) * texelSolidAngle(y, map.width, map.height);
+            const glm::dvec3 light = glm::dvec3(map.radiance[std::size_t(y) * std::size_t(map.width) + std::size_t(x)]) *
+                                     texelSolidAngle(y, map.width, map.height);
             energy += light;
             mean += glm::dvec3(d) * light.g;
         }
@@ -70,7 +72,8 @@ TEST(Environment, SolidAnglesAndIrradianceAreExact) {
     double sum = 0;
     for (int y = 0; y < 64; ++y) sum += 128 * texelSolidAngle(y, 128, 64);
     EXPECT_NEAR(sum, 4 * pi, 1e-9);
-    const Environment white{.type = EnvironmentType::map, .width = 128, .height = 64, .radiance = std::vector<glm::vec3>(128 * 64, glm::vec3(1))};
+    const Environment white{
+        .type = EnvironmentType::map, .width = 128, .height = 64, .radiance = std::vector<glm::vec3>(128 * 64, glm::vec3(1))};
     EXPECT_NEAR(environmentIrradiance(white, {0, 1, 0}).g, pi, 2e-3);
     EXPECT_NEAR(environmentIrradiance(white, glm::normalize(glm::vec3(1, 2, -3))).g, pi, 4e-3);
 }
@@ -83,7 +86,8 @@ TEST(Sky, SunEnergyAndPlaceAreExact) {
             without.sunStrength = 0;
             Environment map = makeSky(sky, 2 * height, height);
             const Environment dark = makeSky(without, 2 * height, height);
-            for (std::size_t i = 0; i < map.radiance.size(); ++i) map.radiance[i] = glm::max(map.radiance[i] - dark.radiance[i], glm::vec3(0));
+            for (std::size_t i = 0; i < map.radiance.size(); ++i)
+                map.radiance[i] = glm::max(map.radiance[i] - dark.radiance[i], glm::vec3(0));
             const glm::vec3 direction = glm::normalize(sky.sunDirection), expected = sunIrradiance(sky);
             const auto [energy, mean] = gather(map, direction, 0.06f);
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(energy[c], expected[c], 2e-3 * expected.r) << elevation;
@@ -104,7 +108,8 @@ TEST(Sky, HorizonCutsTheSun) {
     without.sunStrength = 0;
     const Environment dark = makeSky(without, 512, 256);
     double below = 0, above = 0;
-    for (std::size_t i = 0; i < map.radiance.size(); ++i) (i < map.radiance.size() / 2 ? above : below) += map.radiance[i].r - dark.radiance[i].r;
+    for (std::size_t i = 0; i < map.radiance.size(); ++i)
+        (i < map.radiance.size() / 2 ? above : below) += map.radiance[i].r - dark.radiance[i].r;
     EXPECT_GT(above, 0);
     EXPECT_NEAR(below, 0, 0.02 * above);
     EXPECT_LT(sunIrradiance(low).r, sunIrradiance(risen).r);

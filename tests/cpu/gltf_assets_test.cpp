@@ -32,7 +32,8 @@ std::vector<Expected> expectedIn(const std::vector<std::string>& folders) {
         std::getline(columns, triangles, '\t');
         std::getline(columns, file, '\t');
         for (const std::string& folder : folders) {
-            if (file.starts_with(folder + "/") && std::filesystem::exists(assets() / file)) rows.push_back({triangles.empty() ? 0 : std::stoul(triangles), file});
+            if (file.starts_with(folder + "/") && std::filesystem::exists(assets() / file))
+                rows.push_back({triangles.empty() ? 0 : std::stoul(triangles), file});
         }
     }
     return rows;
@@ -52,7 +53,8 @@ void expectConsistent(const Scene& scene, const std::string& file) {
             const std::size_t count = level.positions.size();
             ASSERT_EQ(level.normals.size(), count) << file;
             ASSERT_EQ(level.materials.size(), level.triangles.size()) << file;
-            for (std::size_t size : {level.tangents.size(), level.uv0.size(), level.uv1.size(), level.colors.size()}) ASSERT_TRUE(size == 0 || size == count) << file;
+            for (std::size_t size : {level.tangents.size(), level.uv0.size(), level.uv1.size(), level.colors.size()})
+                ASSERT_TRUE(size == 0 || size == count) << file;
             for (const glm::vec3& n : level.normals) ASSERT_NEAR(glm::length(n), 1, 1e-4) << file;
             for (const glm::vec4& t : level.tangents) ASSERT_NEAR(glm::length(glm::vec3(t)), 1, 1e-4) << file;
             for (std::size_t i = 0; i < level.triangles.size(); ++i) {
@@ -70,7 +72,8 @@ void expectConsistent(const Scene& scene, const std::string& file) {
 class GltfAssets : public testing::Test {
 protected:
     void SetUp() override {
-        if (!std::filesystem::exists(assets() / "validator-expected.tsv")) GTEST_SKIP() << "the folder of test assets (../shared/assets) is not here";
+        if (!std::filesystem::exists(assets() / "validator-expected.tsv"))
+            GTEST_SKIP() << "the folder of test assets (../shared/assets) is not here";
     }
 };
 
@@ -106,7 +109,8 @@ TEST_F(GltfAssets, CompressedOnesLoadOrNameTheirExtension) {
             EXPECT_EQ(trianglesOf(scene), row.triangles) << row.file;
         } catch (const Error& error) {
             const std::string text = error.what();
-            EXPECT_TRUE(text.find("the model needs extension") != std::string::npos || text.find("version") != std::string::npos) << row.file << ": " << text;
+            EXPECT_TRUE(text.find("the model needs extension") != std::string::npos || text.find("version") != std::string::npos)
+                << row.file << ": " << text;
         }
     }
 }

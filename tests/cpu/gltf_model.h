@@ -16,13 +16,17 @@ public:
     nlohmann::json json{{"asset", {{"version", "2.0"}}}};
 
     /// Appends values as a tightly packed accessor and returns its index.
-    template <class T> int accessor(const std::vector<T>& values, int componentType, const char* type, std::size_t components, bool normalized = false) {
+    template <class T>
+    int accessor(const std::vector<T>& values, int componentType, const char* type, std::size_t components, bool normalized = false) {
         while (bytes_.size() % 4) bytes_.push_back(0);
         const std::size_t offset = bytes_.size(), size = values.size() * sizeof(T);
         bytes_.resize(offset + size);
         if (size) std::memcpy(bytes_.data() + offset, values.data(), size);
         json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
-        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1}, {"componentType", componentType}, {"count", values.size() / components}, {"type", type}});
+        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
+                                     {"componentType", componentType},
+                                     {"count", values.size() / components},
+                                     {"type", type}});
         if (normalized) json["accessors"].back()["normalized"] = true;
         return static_cast<int>(json["accessors"].size()) - 1;
     }
@@ -42,7 +46,8 @@ public:
 
     /// Writes the .gltf file into a folder of the tests and returns its path.
     Path write(const Path& path) {
-        if (!bytes_.empty()) json["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + base64()}}};
+        if (!bytes_.empty())
+            json["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", "data:application/octet-stream;base64," + base64()}}};
         writeFile(path, json.dump(1));
         return path;
     }

@@ -27,7 +27,8 @@ Scene load(const std::string& text) {
 }
 
 bool hasNote(const Scene& scene, const std::string& part) {
-    return std::any_of(scene.notes.begin(), scene.notes.end(), [&](const std::string& note) { return note.find(part) != std::string::npos; });
+    return std::any_of(scene.notes.begin(), scene.notes.end(),
+                       [&](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 // If this fails, instances stand elsewhere: scale first, then rotations about X, Y, Z, then the translation.
@@ -59,7 +60,8 @@ TEST(SceneFile, PlacesEveryModelOnceByItself) {
 
 // If this fails, a dark room gets a sky nobody asked for.
 TEST(SceneFile, KeepsTheDarkThatWasAskedFor) {
-    const Scene scene = load(R"({"format": 1, "models": {"one": {"file": "triangle.gltf"}}, "environment": {"type": "constant", "color": [1, 2, 3], "strength": 0}})");
+    const Scene scene = load(
+        R"({"format": 1, "models": {"one": {"file": "triangle.gltf"}}, "environment": {"type": "constant", "color": [1, 2, 3], "strength": 0}})");
     EXPECT_EQ(scene.environment.type, EnvironmentType::constant);
     EXPECT_EQ(scene.environment.radiance[0], glm::vec3(0));
     EXPECT_EQ(scene.exposure, 0);
@@ -114,6 +116,24 @@ TEST(SceneFile, FindsInstancesOfTheSchedule) {
     EXPECT_EQ(scene.lod.schedule[3].instance, none);
 }
 
+// If this fails, a model called like one of its own nodes switches all of them: a name means an instance before it means a group.
+TEST(SceneFile, InstanceNamesGoBeforeModelNames) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["nodes"][0]["name"] = "rock";
+    model.json["nodes"].push_back({{"name", "pebble"}, {"mesh", 0}});
+    model.json["scenes"][0]["nodes"] = {0, 1};
+    model.write(folder() / "rocks.gltf");
+    writeFile(
+        folder() / "rocks.json",
+        std::string_view(
+            R"({"format": 1, "models": {"rock": {"file": "rocks.gltf"}}, "lod": {"schedule": [{"frame": 4, "instance": "rock", "level": 1}]}})"));
+    const Scene scene = loadScene(folder() / "rocks.json");
+    ASSERT_EQ(scene.instances.size(), 2u);
+    ASSERT_EQ(scene.lod.schedule.size(), 1u);
+    EXPECT_EQ(scene.instances[scene.lod.schedule[0].instance].name, "rock");
+}
+
 // If this fails, a model cannot be looked at without writing a scene file for it.
 TEST(SceneFile, LoadsAModelByItself) {
     GltfModel model;
@@ -140,7 +160,8 @@ TEST(SceneFile, ReportsEveryProblemOfBadFiles) {
         } catch (const Error& error) {
             message = error.what();
         }
-        for (std::size_t at; (at = message.find(errors.string() + "/")) != std::string::npos;) message.erase(at, errors.string().size() + 1);
+        for (std::size_t at; (at = message.find(errors.string() + "/")) != std::string::npos;)
+            message.erase(at, errors.string().size() + 1);
         const Path expected = Path(entry.path()).replace_extension(".expected");
         if (std::getenv("LODESTIR_WRITE_EXPECTED")) writeFile(expected, message + "\n");
         EXPECT_EQ(message + "\n", readText(expected)) << entry.path();

@@ -4,8 +4,8 @@
 //
 // A seed has 64 bits: 16 + 16 bits of pixel and 32 bits of sample index, exclusive-or a 64-bit key of (run, stream). For one key this is a
 // bijection: two samples never share a seed, whatever the frame count. 32 bits were not enough: a 4K image takes 23 of them, so that
-// seeds would repeat after 512 frames, and duplicates of a path are told by their seeds. Two keys' sets of seeds overlap
-// with a chance of at most 2^-64 per pair of samples' differences.
+// seeds would repeat after 512 frames, and copies of a path are told by their seeds. Two runs (or streams) share seeds only if the
+// difference of their keys happens to be that of two samples: a chance of 2^-30 for 4096 samples of an HD image.
 //
 // Source of the hash: Jarzynski and Olano 2020, Hash Functions for GPU Rendering (JCGT 9(3)), pcg4d.
 

@@ -30,8 +30,8 @@ Bsdf material(uint i) {
     if (i == 8u) b = Bsdf(NORMAL, NORMAL, vec3(0.9, 0.5, 0.7), 0.2, 0.6, 0.4, 1.33, 1.0, true);
     if (i == 9u) b = Bsdf(NORMAL, normalize(vec3(0.36, 0.68, 0.6)), vec3(0.6), 0.2, 0.5, 0.3, 1.5, 1.0, false);      // normals differ
     if (i == 10u) b = Bsdf(NORMAL, NORMAL, vec3(1.0), 0.0, 1.0, 0.0, 1.5, 1.0, true);                                // clear glass
-    if (i == 11u) b = Bsdf(NORMAL, NORMAL, vec3(1.0), 0.0, 0.0, 0.0, 1.5, 1.0, false);                               // white under clear coat
-    if (i == 12u) b = Bsdf(NORMAL, NORMAL, vec3(1.0), 0.0, 1.0, 0.0, 1.5, 0.4, false);                               // clear pane, partly there
+    if (i == 11u) b = Bsdf(NORMAL, NORMAL, vec3(1.0), 0.0, 0.0, 0.0, 1.5, 1.0, false);                               // clear coat on white
+    if (i == 12u) b = Bsdf(NORMAL, NORMAL, vec3(1.0), 0.0, 1.0, 0.0, 1.5, 0.4, false);                               // clear pane, 40 %
     if (i == 13u) b = Bsdf(NORMAL, NORMAL, vec3(1.0), 1.0, 0.0, 0.1, 1.5, 1.0, false);                               // F = 1, glossy
     if (i == 14u) b = Bsdf(NORMAL, NORMAL, vec3(0.0), 0.0, 0.0, 0.3, 1.0, 1.0, false);                               // black
     return b;

@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 
 // Lights: 0, 1 the triangles of a textured quad (a 2 x 2 square at z = 2 that faces -Z, instance 0); 2 a mirrored and stretched triangle,
-// instance 1; 3 point with range; 4 spot; 5 directional. The alias table is written by hand: slot i keeps i below `keep`, else takes `other`.
+// instance 1; 3 point with range; 4 spot; 5 directional. The alias table is by hand: slot i keeps i below `keep`, else takes `other`.
 const uint LIGHTS = 6u;
 const float keep[LIGHTS] = float[](1.0, 1.0, 0.6, 0.9, 0.9, 0.6);
 const uint other[LIGHTS] = uint[](0u, 0u, 0u, 1u, 1u, 1u);
