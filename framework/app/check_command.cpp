@@ -27,7 +27,8 @@ void checkVariants(const Options& options, const std::vector<std::string>& names
             changes.variant = name;
             buildGraph(loadDescription(options.session.graph, changes), libraries);
         } catch (const Error& error) {
-            for (const Problem& problem : error.problems()) problems.add(problem.where, fmt::format("variant \"{}\": {}", name, problem.what), problem.hint);
+            for (const Problem& problem : error.problems())
+                problems.add(problem.where, fmt::format("variant \"{}\": {}", name, problem.what), problem.hint);
         }
     }
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Description -> Graph: constructs the passes, binds their inputs, sets their parameters, and finds everything that is wrong.
 #include <framework/gpu/shader.h>
+#include <framework/graph/cycles.h>
 #include <framework/graph/graph.h>
 #include <framework/graph/header.h>
+#include <framework/graph/source.h>
 
 #include <fmt/format.h>
 
@@ -16,64 +18,12 @@ constexpr const char* sceneName = "scene";  // the node, and its type, that stan
 constexpr std::string_view worldType = "World";
 
 bool isWorld(const Port& port) { return port.type.kind == PortType::Kind::handle && port.type.name == worldType; }
-bool isMade(const Port& port) { return port.role == Port::Role::out || port.role == Port::Role::state; }
-
-template <class P> int findPort(const Pass& pass, std::string_view name, const P& fits) {
-    for (std::size_t i = 0; i < pass.ports.size(); ++i) {
-        if (pass.ports[i]->name == name && fits(*pass.ports[i])) return int(i);
-    }
-    return -1;
-}
-
-template <class P> std::vector<std::string> portNames(const Pass& pass, const P& fits) {
-    std::vector<std::string> names;
-    for (const Port* port : pass.ports) {
-        if (fits(*port)) names.emplace_back(port->name);
-    }
-    return names;
-}
-
-std::vector<std::string> nodeNames(const std::vector<GraphNode>& nodes) {
-    std::vector<std::string> names;
-    for (const GraphNode& node : nodes) names.push_back(node.name);
-    return names;
-}
-
-std::string quoted(const std::string& a) { return "\"" + a + "\""; }
-
-/// The only output of a node, for references that name the pass alone. Error at `where` when there is none or more than one.
-int onlyOutput(const GraphNode& node, const Where& where) {
-    const std::vector<std::string> outputs = portNames(*node.pass, isMade);
-    if (outputs.size() == 1) return findPort(*node.pass, outputs[0], isMade);
-    if (outputs.empty()) throw Error(where, fmt::format("pass \"{}\" has no output", node.name));
-    throw Error(where, fmt::format("pass \"{}\" has {} outputs", node.name, outputs.size()),
-                fmt::format("name one: {}.{}", node.name, fmt::join(outputs, fmt::format(", {}.", node.name))));
-}
-
-/// Where the value of `source` really comes from when passes on the way are off. Empty: from an input that is unwired.
-std::optional<Source> throughBypasses(const std::vector<GraphNode>& nodes, Source source, const Where& where) {
-    for (std::size_t steps = 0; nodes[std::size_t(source.node)].off; ++steps) {
-        const GraphNode& node = nodes[std::size_t(source.node)];
-        const std::string name(node.pass->ports[std::size_t(source.port)]->name);
-        if (steps > nodes.size()) throw Error(where, fmt::format("pass \"{}\" is off and its \"{}\" comes back to itself", node.name, name));
-        const auto bypass = std::ranges::find(node.pass->bypasses, node.pass->ports[std::size_t(source.port)], &Pass::Bypass::out);
-        if (bypass == node.pass->bypasses.end()) {
-            throw Error(where, fmt::format("pass \"{}\" is off, and no input stands for its \"{}\"", node.name, name), "wire another source");
-        }
-        const auto in = std::ranges::find(node.pass->ports, bypass->in) - node.pass->ports.begin();
-        const std::optional<Source>& next = node.inputs[std::size_t(in)];
-        if (!next) return std::nullopt;
-        if (next->prev && source.prev) {
-            throw Error(where, fmt::format("pass \"{}\" is off, and last frame's \"{}\" would be the value of two frames ago", node.name, name));
-        }
-        source = {next->node, next->port, next->prev || source.prev};
-    }
-    return source;
-}
 
 class GraphBuilder {
 public:
-    GraphBuilder(Description description, PluginLibraries& libraries) : libraries_(libraries) { graph_.description = std::move(description); }
+    GraphBuilder(Description description, PluginLibraries& libraries) : libraries_(libraries) {
+        graph_.description = std::move(description);
+    }
 
     Graph build() {
         makeNodes();
@@ -88,7 +38,7 @@ public:
         bypassOffNodes();
         bindShow();
         problems_.raise();  // the rest takes every binding for granted
-        findCycles();
+        for (const std::vector<int>& cycle : findCycles(graph_)) reportCycle(cycle);
         checkSizes();
         problems_.raise();
         return std::move(graph_);
@@ -217,8 +167,8 @@ private:
 
     void checkTypes(const Source& to, const Source& from, const Where& where) {
         const PortType &wanted = graph_.port(to).type, &given = graph_.port(from).type;
-        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {} is ", nodes()[std::size_t(to.node)].name, graph_.port(to).name,
-                                              wanted.text(), graph_.nameOf(from));
+        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {} is ", nodes()[std::size_t(to.node)].name,
+                                              graph_.port(to).name, wanted.text(), graph_.nameOf(from));
         if (wanted.kind != given.kind || wanted.name != given.name) throw Error(where, start + given.text());
         if (wanted.size != given.size) {
             throw Error(where, start + fmt::format("a {} of another size: {} bytes, not {}", given.text(), given.size, wanted.size),
@@ -227,15 +177,18 @@ private:
         if (wanted.header.empty() && given.header.empty()) return;
         const Path wantedFile = headerFile(to, where), givenFile = headerFile(from, where);
         if (wantedFile == givenFile || hashOf(to, wantedFile) == hashOf(from, givenFile)) return;
-        throw Error(where, start + fmt::format("a {} declared otherwise: {} differs from {}", given.text(), givenFile.string(), wantedFile.string()),
-                    "let both passes include the same header");
+        throw Error(
+            where,
+            start + fmt::format("a {} declared otherwise: {} differs from {}", given.text(), givenFile.string(), wantedFile.string()),
+            "let both passes include the same header");
     }
 
     Path headerFile(const Source& source, const Where& where) {
         const Port& port = graph_.port(source);
         for (const Path& folder : includeFolders(*nodes()[std::size_t(source.node)].plugin)) {
             std::error_code none;
-            if (std::filesystem::is_regular_file(folder / port.type.header, none)) return std::filesystem::weakly_canonical(folder / port.type.header, none);
+            if (std::filesystem::is_regular_file(folder / port.type.header, none))
+                return std::filesystem::weakly_canonical(folder / port.type.header, none);
         }
         throw Error(where, fmt::format("header \"{}\" of {} ({}) is not found", port.type.header, graph_.nameOf(source), port.type.text()));
     }
@@ -272,7 +225,8 @@ private:
                 for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
                     const Port& port = *nodes()[i].pass->ports[p];
                     const bool free = std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
-                    if (port.isInput() && isWorld(port) && !port.optional && free) nodes()[i].inputs[p] = worldFor(i, port.name.ends_with("Prev"));
+                    if (port.isInput() && isWorld(port) && !port.optional && free)
+                        nodes()[i].inputs[p] = worldFor(i, port.name.ends_with("Prev"));
                 }
             }
         }
@@ -298,7 +252,8 @@ private:
             if (!port.isInput() || port.optional || node.inputs[p]) continue;
             if (std::ranges::find(wired_, Source{int(i), int(p)}) != wired_.end()) continue;  // wired, but wrongly
             const std::string candidates = sourcesFor(i, port);
-            problems_.add(node.where, fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, port.name, port.type.text(), port.doc),
+            problems_.add(node.where,
+                          fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, port.name, port.type.text(), port.doc),
                           candidates.empty() ? "no pass of the graph makes one" : "made by: " + candidates);
         }
     }
@@ -343,52 +298,8 @@ private:
         attempt([&] { graph_.show = findSource(graph_, d.showPort.empty() ? d.showNode : d.showNode + "." + d.showPort, d.showWhere); });
     }
 
-    /// Depth first along what each node needs; an edge back to a node on the way closes a cycle.
-    void findCycles() {
-        std::vector<int> state(nodes().size());  // 0: new, 1: on the way, 2: done
-        std::vector<int> way;
-        for (std::size_t i = 0; i < nodes().size(); ++i) visit(int(i), state, way);
-    }
-
-    void visit(int index, std::vector<int>& state, std::vector<int>& way) {
-        if (state[std::size_t(index)] != 0) return;
-        state[std::size_t(index)] = 1;
-        way.push_back(index);
-        for (const int needed : neededBy(index)) {
-            if (state[std::size_t(needed)] == 1) {
-                reportCycle({std::ranges::find(way, needed), way.end()});
-            } else {
-                visit(needed, state, way);
-            }
-        }
-        way.pop_back();
-        state[std::size_t(index)] = 2;
-    }
-
-    /// Nodes that must run before: makers of inputs, and readers of last frame's state, which is changed in place.
-    std::vector<int> neededBy(int index) {
-        std::vector<int> needed;
-        const GraphNode& node = nodes()[std::size_t(index)];
-        if (node.off) return needed;
-        for (const auto& input : node.inputs) {
-            if (input && !input->prev) needed.push_back(input->node);
-        }
-        for (std::size_t i = 0; i < nodes().size(); ++i) {
-            if (nodes()[i].off || int(i) == index) continue;
-            for (const auto& input : nodes()[i].inputs) {
-                if (input && input->prev && input->node == index && graph_.port(*input).role == Port::Role::state) needed.push_back(int(i));
-            }
-        }
-        std::ranges::sort(needed);
-        needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-        return needed;
-    }
-
-    /// `cycle`: each node needs the next, and the last needs the first. Told in the direction of the data, at the edge that runs
-    /// against the order of the file: most likely the one that was meant to be @prev.
-    void reportCycle(std::vector<int> cycle) {
-        std::ranges::reverse(cycle);
-        std::ranges::rotate(cycle, std::ranges::min_element(cycle));
+    /// Told at the edge that runs against the order of the file: most likely the one that was meant to be @prev.
+    void reportCycle(const std::vector<int>& cycle) {
         std::vector<std::string> names;
         Where place = nodes()[std::size_t(cycle[0])].where;
         std::string hint;
@@ -400,11 +311,12 @@ private:
                 const int reading = findInput(from, to, true);
                 const std::string state = graph_.nameOf(*nodes()[std::size_t(from)].inputs[std::size_t(reading)]);
                 place = placeOf(from, reading);
-                hint = fmt::format("\"{}\" reads \"{}\", which \"{}\" changes in place, and so must come before it; wire an output", names.back(), state,
-                                   nodes()[std::size_t(to)].name);
+                hint = fmt::format("\"{}\" reads \"{}\", which \"{}\" changes in place, and so must come before it; wire an output",
+                                   names.back(), state, nodes()[std::size_t(to)].name);
             } else if (to <= from && hint.empty()) {
                 place = placeOf(to, edge);
-                hint = fmt::format("\"{}@prev\" would read last frame's value", graph_.nameOf(*nodes()[std::size_t(to)].inputs[std::size_t(edge)]));
+                hint = fmt::format("\"{}@prev\" would read last frame's value",
+                                   graph_.nameOf(*nodes()[std::size_t(to)].inputs[std::size_t(edge)]));
             }
         }
         names.push_back(names.front());
@@ -414,7 +326,8 @@ private:
     /// First input of `node` that takes last frame's, or this frame's, value of `from`; -1: none.
     int findInput(int node, int from, bool prev) {
         const auto& inputs = nodes()[std::size_t(node)].inputs;
-        const auto found = std::ranges::find_if(inputs, [&](const auto& input) { return input && input->node == from && input->prev == prev; });
+        const auto found =
+            std::ranges::find_if(inputs, [&](const auto& input) { return input && input->node == from && input->prev == prev; });
         return found == inputs.end() ? -1 : int(found - inputs.begin());
     }
 
@@ -443,28 +356,5 @@ private:
 }  // namespace
 
 Graph buildGraph(Description description, PluginLibraries& libraries) { return GraphBuilder(std::move(description), libraries).build(); }
-
-Source findSource(const Graph& graph, const std::string& name, const Where& where) {
-    if (name.ends_with("@prev")) throw Error(where, quoted(name) + " can't be shown or dumped", "name the port without @prev");
-    const std::size_t dot = name.find('.');
-    const std::string nodeName = name.substr(0, dot);
-    const int index = graph.find(nodeName);
-    if (index < 0) throw Error(where, "no pass " + quoted(nodeName), didYouMean(nodeName, nodeNames(graph.nodes)));
-    const GraphNode& node = graph.nodes[std::size_t(index)];
-    Source source{index, dot == name.npos ? onlyOutput(node, where) : -1};
-    if (source.port < 0) {
-        const std::string portName = name.substr(dot + 1);
-        const auto any = [](const Port&) { return true; };
-        source.port = findPort(*node.pass, portName, any);
-        if (source.port < 0) throw Error(where, fmt::format("pass \"{}\" has no port \"{}\"", nodeName, portName), didYouMean(portName, portNames(*node.pass, any)));
-    }
-    const bool isInput = graph.port(source).isInput();
-    const std::optional<Source> real = isInput ? node.inputs[std::size_t(source.port)] : throughBypasses(graph.nodes, source, where);
-    if (!real) throw Error(where, fmt::format("{} is not wired, so there is nothing to show", quoted(graph.nameOf(source))));
-    const std::optional<Source> made = isInput ? throughBypasses(graph.nodes, *real, where) : real;
-    if (!made) throw Error(where, fmt::format("{} is not wired, so there is nothing to show", quoted(graph.nameOf(source))));
-    if (made->prev) throw Error(where, fmt::format("{} is last frame's value", quoted(name)), fmt::format("name {}", graph.nameOf({made->node, made->port})));
-    return *made;
-}
 
 }  // namespace lodestir

@@ -13,30 +13,42 @@ namespace {
 
 /// Keywords of GLSL 4.60 (section 3.6) that are words of small letters, the words it keeps for later, and those of our extensions.
 const std::set<std::string_view>& glslWords() {
-    static const std::set<std::string_view> words{
-        "active", "asm", "atomic_uint", "attribute", "bool", "break", "buffer", "bvec2", "bvec3", "bvec4", "case", "cast", "centroid", "class",
-        "coherent", "common", "const", "continue", "default", "discard", "dmat2", "dmat3", "dmat4", "do", "double", "dvec2", "dvec3", "dvec4",
-        "else", "enum", "extern", "external", "false", "filter", "fixed", "flat", "float", "for", "fvec2", "fvec3", "fvec4", "goto", "half",
-        "highp", "hvec2", "hvec3", "hvec4", "if", "in", "inline", "inout", "input", "int", "interface", "invariant", "isampler2D", "ivec2",
-        "ivec3", "ivec4", "layout", "long", "lowp", "mat2", "mat3", "mat4", "mediump", "namespace", "noinline", "noperspective", "out",
-        "output", "partition", "patch", "precise", "precision", "public", "readonly", "resource", "restrict", "return", "sample", "sampler",
-        "sampler2D", "shared", "short", "sizeof", "smooth", "static", "struct", "subroutine", "superp", "switch", "template", "texture2D",
-        "this", "true", "typedef", "uint", "uniform", "union", "unsigned", "using", "uvec2", "uvec3", "uvec4", "varying", "vec2", "vec3",
-        "vec4", "void", "volatile", "while", "writeonly", "subgroupuniform", "nonuniform", "nonprivate", "demote", "float16_t", "float32_t",
-        "float64_t", "int8_t", "int16_t", "int32_t", "int64_t", "uint8_t", "uint16_t", "uint32_t", "uint64_t"};
+    static const std::set<std::string_view> words{"active",     "asm",        "atomic_uint",   "attribute", "bool",      "break",
+                                                  "buffer",     "bvec2",      "bvec3",         "bvec4",     "case",      "cast",
+                                                  "centroid",   "class",      "coherent",      "common",    "const",     "continue",
+                                                  "default",    "discard",    "dmat2",         "dmat3",     "dmat4",     "do",
+                                                  "double",     "dvec2",      "dvec3",         "dvec4",     "else",      "enum",
+                                                  "extern",     "external",   "false",         "filter",    "fixed",     "flat",
+                                                  "float",      "for",        "fvec2",         "fvec3",     "fvec4",     "goto",
+                                                  "half",       "highp",      "hvec2",         "hvec3",     "hvec4",     "if",
+                                                  "in",         "inline",     "inout",         "input",     "int",       "interface",
+                                                  "invariant",  "isampler2D", "ivec2",         "ivec3",     "ivec4",     "layout",
+                                                  "long",       "lowp",       "mat2",          "mat3",      "mat4",      "mediump",
+                                                  "namespace",  "noinline",   "noperspective", "out",       "output",    "partition",
+                                                  "patch",      "precise",    "precision",     "public",    "readonly",  "resource",
+                                                  "restrict",   "return",     "sample",        "sampler",   "sampler2D", "shared",
+                                                  "short",      "sizeof",     "smooth",        "static",    "struct",    "subroutine",
+                                                  "superp",     "switch",     "template",      "texture2D", "this",      "true",
+                                                  "typedef",    "uint",       "uniform",       "union",     "unsigned",  "using",
+                                                  "uvec2",      "uvec3",      "uvec4",         "varying",   "vec2",      "vec3",
+                                                  "vec4",       "void",       "volatile",      "while",     "writeonly", "subgroupuniform",
+                                                  "nonuniform", "nonprivate", "demote",        "float16_t", "float32_t", "float64_t",
+                                                  "int8_t",     "int16_t",    "int32_t",       "int64_t",   "uint8_t",   "uint16_t",
+                                                  "uint32_t",   "uint64_t"};
     return words;
 }
 
 /// Names that pass.glsl and the files it includes declare themselves.
 const std::set<std::string_view>& ownWords() {
-    static const std::set<std::string_view> words{"main", "push", "params", "frame", "passBlock", "pixel", "inside", "pixelIndex", "argument", "warming",
-                                                  "skip", "frameIndex", "frameSize", "runSeed", "historyValid", "validating", "countRays", "isOutside",
-                                                  "texelIndex", "asRgba"};
+    static const std::set<std::string_view> words{
+        "main", "push",       "params",    "frame",   "passBlock",    "pixel",      "inside",    "pixelIndex", "argument",   "warming",
+        "skip", "frameIndex", "frameSize", "runSeed", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba"};
     return words;
 }
 
 bool isGlslName(std::string_view name) {
-    return !name.empty() && std::islower(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c); });
+    return !name.empty() && std::islower(static_cast<unsigned char>(name[0])) &&
+           std::ranges::all_of(name, [](unsigned char c) { return std::isalnum(c); });
 }
 
 class DeclarationCheck {
@@ -94,7 +106,8 @@ private:
     void checkShape(const Port& port) {
         const std::string start = fmt::format("port \"{}\" ", port.name);
         const bool isHandle = port.type.kind == PortType::Kind::handle;
-        if (isHandle && (port.role == Port::Role::state || port.role == Port::Role::scratch)) add(start + "is a handle, which can't be state or scratch");
+        if (isHandle && (port.role == Port::Role::state || port.role == Port::Role::scratch))
+            add(start + "is a handle, which can't be state or scratch");
         if (port.isInput() || isHandle) return;
         if (port.type.kind == PortType::Kind::image && !(port.extent.scale > 0)) add(start + "has no size", "its scale must be above 0");
         if (port.type.kind == PortType::Kind::buffer && port.count.number == 0) add(start + "has no elements");
@@ -103,7 +116,8 @@ private:
         const Port* other = find(like);
         if (!other) {
             add(fmt::format("{}is sized like \"{}\", which is no port of the pass", start, like));
-        } else if (other->type.kind == PortType::Kind::handle || (port.type.kind == PortType::Kind::image && other->type.kind != PortType::Kind::image)) {
+        } else if (other->type.kind == PortType::Kind::handle ||
+                   (port.type.kind == PortType::Kind::image && other->type.kind != PortType::Kind::image)) {
             add(fmt::format("{}is sized like \"{}\", which has no such size", start, like));
         }
         std::size_t steps = 0;
@@ -116,7 +130,8 @@ private:
 
     void checkParameter(const Parameter& p) {
         const std::string start = fmt::format("parameter \"{}\" ", p.name);
-        if (p.isChoice() && std::set<std::string_view>(p.choices.begin(), p.choices.end()).size() != p.choices.size()) add(start + "has a choice twice");
+        if (p.isChoice() && std::set<std::string_view>(p.choices.begin(), p.choices.end()).size() != p.choices.size())
+            add(start + "has a choice twice");
         const auto outOf = [&]<class T>(const T& initial) { return initial < std::get<T>(p.low) || initial > std::get<T>(p.high); };
         const int* whole = std::get_if<int>(&p.initial);
         const float* number = std::get_if<float>(&p.initial);
@@ -128,7 +143,8 @@ private:
         if (!known || !bypass.in->isInput() || bypass.out->role != Port::Role::out) {
             add("a bypass must lead from an input to an output of the pass");
         } else if (bypass.in->type.kind != bypass.out->type.kind || bypass.in->type.name != bypass.out->type.name) {
-            add(fmt::format("the bypass from \"{}\" to \"{}\" joins {} and {}", bypass.in->name, bypass.out->name, bypass.in->type.text(), bypass.out->type.text()));
+            add(fmt::format("the bypass from \"{}\" to \"{}\" joins {} and {}", bypass.in->name, bypass.out->name, bypass.in->type.text(),
+                            bypass.out->type.text()));
         }
     }
 

@@ -14,7 +14,9 @@ namespace {
 constexpr std::string_view prevMark = "@prev";
 
 bool isName(std::string_view text) {
-    const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+    const auto fits = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    };
     return !text.empty() && std::ranges::all_of(text, fits);
 }
 
@@ -67,7 +69,8 @@ void applyVariant(Json& source, const std::string& name, const Path& file) {
     const Json* variants = source.find("variants");
     const Json* patch = variants ? variants->find(name) : nullptr;
     const std::vector<std::string> known = keysOf(variants);
-    if (!patch) throw Error(Where{file.string()}, "no variant \"" + name + "\"", known.empty() ? "the graph has none" : didYouMean(name, known));
+    if (!patch)
+        throw Error(Where{file.string()}, "no variant \"" + name + "\"", known.empty() ? "the graph has none" : didYouMean(name, known));
     if (!patch->isObject()) throw Error(patch->where(), "a variant must be an object: a merge patch of the graph");
     source.merge(Json(*patch));
 }
@@ -76,7 +79,8 @@ void applyAssignment(Json& source, const std::string& text) {
     Assignment assignment = readAssignment(text);
     const Where where{"--set " + text};
     if (assignment.node == "frame") {
-        source["frame"][assignment.name] = assignment.name == "size" ? readSizeText(std::move(assignment.value)) : std::move(assignment.value);
+        source["frame"][assignment.name] =
+            assignment.name == "size" ? readSizeText(std::move(assignment.value)) : std::move(assignment.value);
         return;
     }
     const Json* passes = source.find("passes");
@@ -165,12 +169,13 @@ private:
     void readFrame(const Json& frame) {
         static const std::vector<std::string> known{"size", "count", "seed"};
         frame.expectOnly(known, "\"frame\"", problems_);
-        if (const Json* size = frame.find("size")) attempt([&] {
-            const std::vector<Json>& items = size->items("\"size\"");
-            if (items.size() != 2) throw Error(size->where(), "\"size\" must be [width, height], in pixels");
-            attempt([&] { d.size.x = std::uint32_t(readWithin(items[0], "the frame's width", 1, maxFrameSize)); });
-            attempt([&] { d.size.y = std::uint32_t(readWithin(items[1], "the frame's height", 1, maxFrameSize)); });
-        });
+        if (const Json* size = frame.find("size"))
+            attempt([&] {
+                const std::vector<Json>& items = size->items("\"size\"");
+                if (items.size() != 2) throw Error(size->where(), "\"size\" must be [width, height], in pixels");
+                attempt([&] { d.size.x = std::uint32_t(readWithin(items[0], "the frame's width", 1, maxFrameSize)); });
+                attempt([&] { d.size.y = std::uint32_t(readWithin(items[1], "the frame's height", 1, maxFrameSize)); });
+            });
         if (const Json* count = frame.find("count"))
             attempt([&] { d.count = int(readWithin(*count, "\"count\"", 1, std::numeric_limits<int>::max())); });
         if (const Json* seed = frame.find("seed"))
@@ -180,8 +185,10 @@ private:
     void readPasses(const Json& passes) {
         if (passes.members("\"passes\"").empty()) throw Error(passes.where(), "\"passes\" is empty");
         for (const auto& [name, value] : passes.members()) {
-            if (!isName(name)) problems_.add(value.keyWhere(), "\"" + name + "\" can't be the name of a pass", "use letters, digits, _ and -");
-            if (name == "frame") problems_.add(value.keyWhere(), "\"frame\" can't be the name of a pass", "--set frame.seed=1 means the frame");
+            if (!isName(name))
+                problems_.add(value.keyWhere(), "\"" + name + "\" can't be the name of a pass", "use letters, digits, _ and -");
+            if (name == "frame")
+                problems_.add(value.keyWhere(), "\"frame\" can't be the name of a pass", "--set frame.seed=1 means the frame");
             d.nodes.push_back({.name = name, .where = value.keyWhere()});
             attempt([&] { readNode(value, d.nodes.back()); });
         }
@@ -193,23 +200,27 @@ private:
         value.expectOnly(known, what, problems_);
         const Json* type = value.find("type");
         if (!type) problems_.add(node.where, what + " has no \"type\"");
-        if (type) attempt([&] {
-            node.typeWhere = type->where();
-            std::string folder, name;
-            if (!readReference(type->asString("\"type\""), folder, name))
-                throw Error(type->where(), "\"" + type->asString() + "\" is no pass type", "write \"folder\" or \"folder.Struct\"");
-            node.type = type->asString();
-        });
-        if (const Json* off = value.find("off")) attempt([&] {
-            node.offWhere = off->where();
-            node.off = off->asBool("\"off\"");
-        });
-        if (const Json* in = value.find("in")) attempt([&] {
-            for (const auto& [port, edge] : in->members("\"in\"")) attempt([&] { node.edges.push_back(readEdge(port, edge)); });
-        });
-        if (const Json* set = value.find("set")) attempt([&] {
-            for (const auto& [name, setting] : set->members("\"set\"")) node.settings.push_back({name, setting});
-        });
+        if (type)
+            attempt([&] {
+                node.typeWhere = type->where();
+                std::string folder, name;
+                if (!readReference(type->asString("\"type\""), folder, name))
+                    throw Error(type->where(), "\"" + type->asString() + "\" is no pass type", "write \"folder\" or \"folder.Struct\"");
+                node.type = type->asString();
+            });
+        if (const Json* off = value.find("off"))
+            attempt([&] {
+                node.offWhere = off->where();
+                node.off = off->asBool("\"off\"");
+            });
+        if (const Json* in = value.find("in"))
+            attempt([&] {
+                for (const auto& [port, edge] : in->members("\"in\"")) attempt([&] { node.edges.push_back(readEdge(port, edge)); });
+            });
+        if (const Json* set = value.find("set"))
+            attempt([&] {
+                for (const auto& [name, setting] : set->members("\"set\"")) node.settings.push_back({name, setting});
+            });
     }
 
     static EdgeDescription readEdge(const std::string& port, const Json& value) {
@@ -252,7 +263,8 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     Problems problems;
     description.file = file;
     description.source = std::move(source);
-    if (!description.source.isObject()) throw Error(description.source.where(), "a graph must be an object, not " + std::string(description.source.kindName()));
+    if (!description.source.isObject())
+        throw Error(description.source.where(), "a graph must be an object, not " + std::string(description.source.kindName()));
     if (const Json* variants = description.source.find("variants")) {
         if (!variants->isObject()) throw Error(variants->where(), "\"variants\" must be an object of merge patches");
         description.variants = keysOf(variants);

@@ -18,8 +18,8 @@ struct EdgeDescription {
     std::string port;
     std::string fromNode, fromPort;  ///< fromPort is empty where the file names the pass alone
     bool prev = false;
-    Where where;                     ///< of the value
-    Where portWhere;                 ///< of the key
+    Where where;      ///< of the value
+    Where portWhere;  ///< of the key
 };
 
 /// One member of "set"; value.keyWhere() is the place of the name.
@@ -33,7 +33,7 @@ struct NodeDescription {
     std::vector<EdgeDescription> edges;
     std::vector<Setting> settings;
     bool off = false;
-    Where where;      ///< of the name
+    Where where;  ///< of the name
     Where typeWhere;
     Where offWhere;
 };
@@ -41,27 +41,27 @@ struct NodeDescription {
 struct Description {
     Path file;
     std::string about;
-    Path scene;                   ///< resolved relative to the graph file; empty: none named
+    Path scene;  ///< resolved relative to the graph file; empty: none named
     Where sceneWhere;
-    glm::uvec2 size{960, 540};    ///< pixels
-    int count = 1;                ///< frames
+    glm::uvec2 size{960, 540};  ///< pixels
+    int count = 1;              ///< frames
     std::uint32_t seed = 1;
     std::vector<NodeDescription> nodes;  ///< in file order
     std::string showNode, showPort;      ///< showPort is empty where the file names the pass alone
     Where showWhere;
-    std::vector<std::string> variants;   ///< names, in file order
-    Json source;                         ///< the file after the variant's merge patch and all overrides, without "variants"
+    std::vector<std::string> variants;  ///< names, in file order
+    Json source;                        ///< the file after the variant's merge patch and all overrides, without "variants"
 };
 
 /// What the command line (or a study) changes in a graph. Applied in this order: variant, the fields, `set`.
 struct GraphOptions {
-    std::optional<Path> scene;               ///< relative to the working folder
+    std::optional<Path> scene;  ///< relative to the working folder
     std::optional<int> frames;
     std::optional<glm::uvec2> size;
     std::optional<std::uint32_t> seed;
-    std::vector<std::string> set;            ///< "pass.param=value", "frame.seed=3", "frame.size=1280x720"; values are JSON, else text
+    std::vector<std::string> set;  ///< "pass.param=value", "frame.seed=3", "frame.size=1280x720"; values are JSON, else text
     std::optional<std::string> variant;
-    std::optional<std::string> show;         ///< "pass" or "pass.port"
+    std::optional<std::string> show;  ///< "pass" or "pass.port"
 };
 
 /// Largest width and height of a frame, pixels.

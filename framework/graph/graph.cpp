@@ -52,9 +52,10 @@ private:
 
     const Port& step(int nodeIndex, int portIndex) {
         if (stepsLeft_-- == 0) {
-            throw Error(graph_.nodes[std::size_t(nodeIndex)].where,
-                        fmt::format("the sizes of {} and of the ports it follows depend on each other", graph_.nameOf({nodeIndex, portIndex})),
-                        "give one of them a size of its own");
+            throw Error(
+                graph_.nodes[std::size_t(nodeIndex)].where,
+                fmt::format("the sizes of {} and of the ports it follows depend on each other", graph_.nameOf({nodeIndex, portIndex})),
+                "give one of them a size of its own");
         }
         return *graph_.nodes[std::size_t(nodeIndex)].pass->ports[std::size_t(portIndex)];
     }

@@ -35,7 +35,9 @@ struct Graph {
     std::vector<GraphNode> nodes;  ///< in file order; an implied scene node comes first
     Source show;
 
-    const Port& port(const Source& source) const { return *nodes[static_cast<std::size_t>(source.node)].pass->ports[static_cast<std::size_t>(source.port)]; }
+    const Port& port(const Source& source) const {
+        return *nodes[static_cast<std::size_t>(source.node)].pass->ports[static_cast<std::size_t>(source.port)];
+    }
     /// "pass.port", "pass.port@prev"
     LODESTIR_API std::string nameOf(const Source& source) const;
     /// Index of a node, -1: no such.

@@ -89,21 +89,24 @@ private:
         // A value of this frame whose maker comes later, or comes never: the version is an old one, though memory and record agree.
         const PlanResource& resource = plan_.resources[std::size_t(r)];
         const bool makerRuns = !plan_.steps[std::size_t(plan_.stepOf(resource.node))].onChange || changesIn(now.frame);
-        if (!prev && makerRuns && copies.version != now.frame) add(Hazard::Kind::wrongContent, now, {}, "reads " + nameOf(r) + " before it is made");
+        if (!prev && makerRuns && copies.version != now.frame)
+            add(Hazard::Kind::wrongContent, now, {}, "reads " + nameOf(r) + " before it is made");
     }
 
     void read(const Moment& now, int r, int copy, int version) {
         Memory& memory = memoryOf(r, copy);
         if (meets(memory.written, now)) add(Hazard::Kind::readAfterWrite, now, memory.written, fmt::format("reads {}, written", nameOf(r)));
         if (memory.resource != r || memory.version != version) {
-            add(Hazard::Kind::wrongContent, now, memory.written, fmt::format("reads {} of frame {}, but its memory was overwritten", nameOf(r), version));
+            add(Hazard::Kind::wrongContent, now, memory.written,
+                fmt::format("reads {} of frame {}, but its memory was overwritten", nameOf(r), version));
         }
         memory.readers.push_back(now);
     }
 
     void write(const Moment& now, int r, int copy) {
         Memory& memory = memoryOf(r, copy);
-        if (meets(memory.written, now)) add(Hazard::Kind::writeAfterWrite, now, memory.written, fmt::format("writes {}, written", nameOf(r)));
+        if (meets(memory.written, now))
+            add(Hazard::Kind::writeAfterWrite, now, memory.written, fmt::format("writes {}, written", nameOf(r)));
         for (const Moment& reader : memory.readers) {
             if (meets(reader, now)) add(Hazard::Kind::writeAfterRead, now, reader, fmt::format("writes {}, read", nameOf(r)));
         }
@@ -127,7 +130,8 @@ private:
 
     void add(Hazard::Kind kind, const Moment& now, const Moment& before, const std::string& what) {
         std::string text = fmt::format("{} {}", stepName(now.step), what);
-        if (before.step >= 0) text += fmt::format(" by {}{}", stepName(before.step), before.frame == now.frame ? "" : " of an earlier frame");
+        if (before.step >= 0)
+            text += fmt::format(" by {}{}", stepName(before.step), before.frame == now.frame ? "" : " of an earlier frame");
         if (known_.emplace(kind, now.step, before.step, what).second) {
             hazards_.push_back({kind, now.frame, now.step, before.frame, before.step, std::move(text)});
         }
@@ -145,6 +149,8 @@ private:
 
 }  // namespace
 
-std::vector<Hazard> findHazards(const Plan& plan, const Graph& graph, std::span<const int> dropped) { return Simulation(plan, graph, dropped).run(); }
+std::vector<Hazard> findHazards(const Plan& plan, const Graph& graph, std::span<const int> dropped) {
+    return Simulation(plan, graph, dropped).run();
+}
 
 }  // namespace lodestir

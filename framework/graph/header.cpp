@@ -24,7 +24,8 @@ std::string capitalised(std::string_view name) {
 /// A choice's name as the end of an identifier: "ray query" -> ray_query.
 std::string identifier(std::string_view name) {
     std::string text(name);
-    std::ranges::replace_if(text, [](unsigned char c) { return !std::isalnum(c); }, '_');
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return !std::isalnum(c); }, '_');
     return text;
 }
 
@@ -82,7 +83,8 @@ private:
             const Parameter& parameter = *pass_.parameters[i];
             if (!layout.constants[i]) continue;
             line("\n// {} ({})", parameter.doc, parameter.typeText());
-            line("layout(constant_id = {}) const {} {} = {};", *layout.constants[i], typeOf(parameter), parameter.name, literal(parameter.initial));
+            line("layout(constant_id = {}) const {} {} = {};", *layout.constants[i], typeOf(parameter), parameter.name,
+                 literal(parameter.initial));
         }
         for (const Parameter* parameter : pass_.parameters) {
             if (!parameter->isChoice()) continue;
@@ -119,10 +121,13 @@ private:
             const PortType& type = port->type;
             if (type.kind == PortType::Kind::image || !written.emplace(type.kind, type.name).second) continue;
             if (type.kind == PortType::Kind::handle) {
-                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer {}Memory {{ {} value; }};", capitalised(type.name), type.name);
+                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer {}Memory {{ {} value; }};",
+                     capitalised(type.name), type.name);
             } else {
-                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer In{} {{ {} at[]; }};", capitalised(type.name), type.name);
-                line("layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Out{} {{ {} at[]; }};", capitalised(type.name), type.name);
+                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer In{} {{ {} at[]; }};",
+                     capitalised(type.name), type.name);
+                line("layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Out{} {{ {} at[]; }};", capitalised(type.name),
+                     type.name);
             }
         }
     }
@@ -135,9 +140,9 @@ private:
         line("\n// {} ({}{})", port.doc, kind, bound ? "" : ", unwired");
         if (port.optional) line("#define HAS_{} {}", port.name, bound ? 1 : 0);
         switch (port.type.kind) {
-            case PortType::Kind::image: bound ? writeImage(i, port, format) : writeNoImage(port); break;
-            case PortType::Kind::buffer: bound ? writeBuffer(i, port) : writeNoBuffer(port); break;
-            case PortType::Kind::handle: writeHandle(port, bound); break;
+        case PortType::Kind::image: bound ? writeImage(i, port, format) : writeNoImage(port); break;
+        case PortType::Kind::buffer: bound ? writeBuffer(i, port) : writeNoBuffer(port); break;
+        case PortType::Kind::handle: writeHandle(port, bound); break;
         }
     }
 
@@ -189,7 +194,8 @@ private:
 
     void writeHandle(const Port& port, bool bound) {
         if (bound) {
-            line("{} {}() {{ return {}Memory(passBlock().{}.address).value; }}", port.type.name, port.name, capitalised(port.type.name), port.name);
+            line("{} {}() {{ return {}Memory(passBlock().{}.address).value; }}", port.type.name, port.name, capitalised(port.type.name),
+                 port.name);
         } else {
             line("{} {}() {{ {} nothing = {{}}; return nothing; }}", port.type.name, port.name, port.type.name);
         }

@@ -30,9 +30,9 @@ inline std::string passHeader(const Graph& graph, int node) {
 /// (bool as 0 or 1, choices as int).
 struct BlockLayout {
     std::size_t bytes = 0;
-    std::vector<std::size_t> ports;                          ///< offset of each port's PortRecord
-    std::vector<std::optional<std::size_t>> parameters;      ///< of each uniform parameter; constants and texts have none
-    std::vector<std::optional<std::uint32_t>> constants;     ///< constant_id of each Const
+    std::vector<std::size_t> ports;                       ///< offset of each port's PortRecord
+    std::vector<std::optional<std::size_t>> parameters;   ///< of each uniform parameter; constants and texts have none
+    std::vector<std::optional<std::uint32_t>> constants;  ///< constant_id of each Const
 };
 LODESTIR_API BlockLayout blockLayout(const Pass& pass);
 /// Writes the uniform parameters into a block of blockLayout(pass).bytes.

@@ -9,7 +9,13 @@ namespace lodestir {
 
 Parameter::Parameter(Pass* pass, std::string_view name_, std::string_view doc_, Value initial_, Value low_, Value high_, bool constant_,
                      std::vector<std::string_view> choices_)
-    : name(name_), doc(doc_), value(initial_), initial(initial_), low(std::move(low_)), high(std::move(high_)), choices(std::move(choices_)),
+    : name(name_),
+      doc(doc_),
+      value(initial_),
+      initial(initial_),
+      low(std::move(low_)),
+      high(std::move(high_)),
+      choices(std::move(choices_)),
       constant(constant_) {
     pass->parameters.push_back(this);
 }

@@ -19,9 +19,12 @@ void Pass::execute(Frame& frame) {
     }
     const Port& port = **first;
     // A buffer with something for each pixel is filled pixel by pixel, any other one element by element.
-    if (port.type.kind == PortType::Kind::image) frame.dispatch(shader, frame.sizeOf(port));
-    else if (port.count.kind == Count::Kind::perPixel) frame.dispatch(shader, frame.size());
-    else frame.dispatch(shader, {frame.countOf(port), 1});
+    if (port.type.kind == PortType::Kind::image)
+        frame.dispatch(shader, frame.sizeOf(port));
+    else if (port.count.kind == Count::Kind::perPixel)
+        frame.dispatch(shader, frame.size());
+    else
+        frame.dispatch(shader, {frame.countOf(port), 1});
 }
 
 }  // namespace lodestir

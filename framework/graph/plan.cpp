@@ -12,7 +12,7 @@ namespace {
 
 /// One step touching one piece of memory.
 struct Access {
-    int memory;    ///< equal numbers: the same memory
+    int memory;  ///< equal numbers: the same memory
     int resource;
     bool write;
 };
@@ -26,7 +26,8 @@ struct Need {
 
 class Planner {
 public:
-    Planner(const Graph& graph, const std::vector<Source>& pinned, const PlanOptions& options) : graph_(graph), options_(options), pinned_(pinned) {
+    Planner(const Graph& graph, const std::vector<Source>& pinned, const PlanOptions& options)
+        : graph_(graph), options_(options), pinned_(pinned) {
         pinned_.push_back(graph.show);
         if (options_.frame == glm::uvec2(0)) options_.frame = graph.description.size;
     }
@@ -100,7 +101,8 @@ private:
                 PlanResource r{.node = int(i), .port = int(p)};
                 r.firstStep = r.lastStep = plan_.stepOf(int(i));
                 r.pinned = std::ranges::any_of(pinned_, [&](const Source& s) { return s.node == r.node && s.port == r.port; });
-                r.keeps = port.role == Port::Role::state || (port.role == Port::Role::out && node(int(i)).pass->cadence == Cadence::onChange);
+                r.keeps =
+                    port.role == Port::Role::state || (port.role == Port::Role::out && node(int(i)).pass->cadence == Cadence::onChange);
                 for (std::size_t s = 0; s < plan_.steps.size(); ++s) followReader(int(s), r, port);
                 if (r.keeps) r.firstStep = 0;
                 if (r.keeps || r.pinned) r.lastStep = last;
@@ -124,7 +126,9 @@ private:
             const PlanResource& r = plan_.resources[i];
             if (!r.keeps && !r.pinned && graph_.port({r.node, r.port}).type.kind != PortType::Kind::handle) order.push_back(int(i));
         }
-        const auto bytes = [&](int i) { return bytesOf(graph_, plan_.resources[std::size_t(i)].node, plan_.resources[std::size_t(i)].port, options_.frame); };
+        const auto bytes = [&](int i) {
+            return bytesOf(graph_, plan_.resources[std::size_t(i)].node, plan_.resources[std::size_t(i)].port, options_.frame);
+        };
         std::ranges::stable_sort(order, [&](int a, int b) { return bytes(a) > bytes(b); });
         std::vector<std::vector<int>> groups;
         for (const int i : order) {
@@ -238,9 +242,12 @@ private:
             const PlanResource& r = plan_.resources[std::size_t(access.resource)];
             return graph_.nameOf({r.node, r.port});
         };
-        const auto stepName = [&](int index) { return fmt::format("step {} ({})", index + 1, node(plan_.steps[std::size_t(index)].node).name); };
+        const auto stepName = [&](int index) {
+            return fmt::format("step {} ({})", index + 1, node(plan_.steps[std::size_t(index)].node).name);
+        };
         const std::string subject = need.to == step ? std::string() : stepName(need.to) + " ";
-        const std::string sharing = need.before.resource == need.after.resource ? std::string() : fmt::format(" into the memory of {}", name(need.before));
+        const std::string sharing =
+            need.before.resource == need.after.resource ? std::string() : fmt::format(" into the memory of {}", name(need.before));
         return fmt::format("{}{} {}{}, {} by {}{}", subject, need.after.write ? "writes" : "reads", name(need.after), sharing,
                            need.before.write ? "written" : "read", stepName(need.from), need.wraps ? " of the frame before" : "");
     }
@@ -264,7 +271,9 @@ int Plan::resourceOf(int node, int port) const {
     return found == resources.end() ? -1 : int(found - resources.begin());
 }
 
-Plan makePlan(const Graph& graph, const std::vector<Source>& pinned, const PlanOptions& options) { return Planner(graph, pinned, options).make(); }
+Plan makePlan(const Graph& graph, const std::vector<Source>& pinned, const PlanOptions& options) {
+    return Planner(graph, pinned, options).make();
+}
 
 std::size_t planBytes(const Plan& plan, const Graph& graph, glm::uvec2 frame) {
     std::size_t bytes = 0;

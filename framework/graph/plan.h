@@ -2,10 +2,12 @@
 // What one frame of a graph does: order of the steps, lifetimes of the memory, barriers. A pure function of the graph; no GPU.
 //
 // The model that the runner follows:
-// - Each resource is the memory of one output, state or scratch port of a node that runs. With `history` there are two copies: at the start of
-//   a frame "previous" becomes what "current" was, and a producer that runs this frame writes the other copy (one that doesn't leaves it).
+// - Each resource is the memory of one output, state or scratch port of a node that runs. With `history` there are two copies: at the
+//   start of a frame "previous" becomes what "current" was (for all resources, before any step), and a producer that runs this frame
+//   writes the other copy, which becomes "current"; one that doesn't run leaves it. So @prev is the same copy all frame long.
 // - A step with a barrier is preceded by one global memory barrier (all writes before visible to all accesses after), issued even when
-//   the step itself is skipped because it is onChange and nothing changed. The list wraps around: step 0 follows the last step of the frame before.
+//   the step itself is skipped because it is onChange and nothing changed. The list wraps around: step 0 follows the last step of the
+//   frame before.
 // - @prev of a State port is the state's own memory, read before its owner changes it; the order of the steps sees to that.
 #pragma once
 #include <framework/graph/graph.h>
@@ -23,11 +25,11 @@ struct PlanStep {
 
 struct PlanResource {
     int node = -1, port = -1;
-    bool history = false;      ///< a second copy because of @prev
-    bool pinned = false;       ///< shown or dumped: its content outlives the frame's last step
-    bool keeps = false;        ///< content is needed in later frames (state, history, output of an onChange pass)
+    bool history = false;  ///< a second copy because of @prev
+    bool pinned = false;   ///< shown or dumped: its content outlives the frame's last step
+    bool keeps = false;    ///< content is needed in later frames (state, history, output of an onChange pass)
     int firstStep = 0, lastStep = 0;
-    int group = -1;            ///< resources of one group share memory; -1: memory of its own
+    int group = -1;  ///< resources of one group share memory; -1: memory of its own
 };
 
 struct Plan {
@@ -42,9 +44,9 @@ struct Plan {
 };
 
 struct PlanOptions {
-    bool aliasing = false;                ///< let resources whose lifetimes don't meet share memory
-    bool allBarriers = false;             ///< a barrier before every step: the yardstick for finding missing ones by comparing bits
-    glm::uvec2 frame{0, 0};               ///< for aliasing: the big ones are placed first; {0, 0}: the description's size
+    bool aliasing = false;     ///< let resources whose lifetimes don't meet share memory
+    bool allBarriers = false;  ///< a barrier before every step: the yardstick for finding missing ones by comparing bits
+    glm::uvec2 frame{0, 0};    ///< for aliasing: the big ones are placed first; {0, 0}: the description's size
 };
 
 /// Plans what `graph.show` and `pinned` need.

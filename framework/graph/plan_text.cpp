@@ -37,7 +37,8 @@ std::string shapeText(const Graph& graph, const PlanResource& r) {
 
 std::string lifeText(const Graph& graph, const PlanResource& r) {
     const bool isState = graph.port({r.node, r.port}).role == Port::Role::state;
-    std::string text = r.firstStep == r.lastStep ? fmt::format("step {}", r.firstStep + 1) : fmt::format("steps {}..{}", r.firstStep + 1, r.lastStep + 1);
+    std::string text =
+        r.firstStep == r.lastStep ? fmt::format("step {}", r.firstStep + 1) : fmt::format("steps {}..{}", r.firstStep + 1, r.lastStep + 1);
     if (r.history) text = "two copies (@prev)";
     if (r.keeps && !r.history) text = isState ? "kept (state)" : "kept (onChange)";
     if (r.pinned) text += ", pinned";
@@ -73,19 +74,22 @@ std::string text(const Plan& plan, const Graph& graph) {
         shapeWidth = std::max(shapeWidth, shapeText(graph, r).size());
     }
 
-    std::string out = fmt::format("{}: {} steps, {} barriers, {} at {} x {}, shows {}\n", graph.description.file.string(), plan.steps.size(), barriers,
-                                  bytesText(planBytes(plan, graph, size)), size.x, size.y, graph.nameOf(graph.show));
+    std::string out =
+        fmt::format("{}: {} steps, {} barriers, {} at {} x {}, shows {}\n", graph.description.file.string(), plan.steps.size(), barriers,
+                    bytesText(planBytes(plan, graph, size)), size.x, size.y, graph.nameOf(graph.show));
     for (std::size_t s = 0; s < plan.steps.size(); ++s) {
         const PlanStep& step = plan.steps[s];
         const GraphNode& node = graph.nodes[std::size_t(step.node)];
         if (!step.barrier.empty()) out += fmt::format("       barrier: {}\n", step.barrier);
-        out += fmt::format("  {:3}  {:{}}  {:{}}  {}{}\n", s + 1, node.name, nameWidth, node.type, typeWidth, sourceOf(node), step.onChange ? "  (onChange)" : "");
+        out += fmt::format("  {:3}  {:{}}  {:{}}  {}{}\n", s + 1, node.name, nameWidth, node.type, typeWidth, sourceOf(node),
+                           step.onChange ? "  (onChange)" : "");
         if (const std::string edges = edgesText(graph, node); !edges.empty()) out += "         " + edges + "\n";
     }
     out += "memory\n";
     for (const PlanResource& r : plan.resources) {
-        out += fmt::format("  {:{}}  {:{}}  {:{}}  {:>10}  {}\n", graph.nameOf({r.node, r.port}), resourceWidth, graph.port({r.node, r.port}).type.text(), kindWidth,
-                           shapeText(graph, r), shapeWidth, bytesText(ownBytes(graph, r)), lifeText(graph, r));
+        out += fmt::format("  {:{}}  {:{}}  {:{}}  {:>10}  {}\n", graph.nameOf({r.node, r.port}), resourceWidth,
+                           graph.port({r.node, r.port}).type.text(), kindWidth, shapeText(graph, r), shapeWidth,
+                           bytesText(ownBytes(graph, r)), lifeText(graph, r));
     }
     for (const int index : plan.culled) {
         const GraphNode& node = graph.nodes[std::size_t(index)];

@@ -103,7 +103,8 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     for (const Plugin* plugin : plugins) names.push_back(folder + "." + plugin->type);
     if (dot == type.npos) {
         if (plugins.size() == 1) return *plugins.front();
-        throw Error(where, "\"" + type + "\" holds " + std::to_string(plugins.size()) + " passes", fmt::format("name one: {}", fmt::join(names, ", ")));
+        throw Error(where, "\"" + type + "\" holds " + std::to_string(plugins.size()) + " passes",
+                    fmt::format("name one: {}", fmt::join(names, ", ")));
     }
     const auto found = std::ranges::find(names, type);
     if (found == names.end()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(type, names));
@@ -133,7 +134,8 @@ Path shaderOf(const Plugin& plugin, std::string_view file) {
         std::error_code none;
         if (!folder.empty() && fs::is_regular_file(folder / file, none)) return folder / file;
     }
-    throw Error("shader \"" + std::string(file) + "\" of pass \"" + plugin.type + "\" is neither in " + folders[0].string() + " nor in " + folders[1].string());
+    throw Error("shader \"" + std::string(file) + "\" of pass \"" + plugin.type + "\" is neither in " + folders[0].string() + " nor in " +
+                folders[1].string());
 }
 
 std::vector<Path> includeFolders(const Plugin& plugin) {

@@ -21,7 +21,8 @@ public:
     /// A pass that is part of the framework (or of a test); hides a folder of the same name.
     void addBuiltIn(const std::string& type, const Plugin& plugin);
     bool hasBuiltIn(const std::string& type) const { return builtIns_.contains(type); }
-    /// The plugin of a type, loading its library. Error at `where`: no such folder or struct (with a guess), not loadable, built against another framework.
+    /// The plugin of a type, loading its library. Error at `where`: no such folder or struct (with a guess), not loadable, or built
+    /// against another framework.
     const Plugin& find(const std::string& type, const Where& where = {});
 
     struct Entry {
@@ -36,8 +37,8 @@ public:
 private:
     /// The passes of one folder, in order of declaration; loads the library.
     const std::vector<const Plugin*>& library(const std::string& folder, const Path& file, const Where& where);
-    Path fileOf(const std::string& folder) const;         ///< empty: there is none
-    std::vector<std::string> knownFolders() const;        ///< sorted, with the built-in types
+    Path fileOf(const std::string& folder) const;   ///< empty: there is none
+    std::vector<std::string> knownFolders() const;  ///< sorted, with the built-in types
 
     std::vector<Path> folders_;
     std::map<std::string, Plugin> builtIns_;
@@ -48,7 +49,8 @@ private:
 LODESTIR_API std::string_view frameworkAbi();
 /// A file of a pass's folder: beside its library first, then beside its source.
 LODESTIR_API Path shaderOf(const Plugin& plugin, std::string_view file);
-/// Folders in which the includes of a pass's shaders and struct headers are looked up: beside the library, beside the source, the framework's shaders.
+/// Folders in which the includes of a pass's shaders and struct headers are looked up: beside the library, beside the source, the
+/// framework's shaders.
 LODESTIR_API std::vector<Path> includeFolders(const Plugin& plugin);
 
 }  // namespace lodestir

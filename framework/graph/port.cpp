@@ -24,7 +24,14 @@ const FormatFacts& factsOf(Format format) {
 std::string PortType::text() const { return kind == Kind::buffer ? "Buffer<" + std::string(name) + ">" : std::string(name); }
 
 Port::Port(Pass* pass, std::string_view name_, std::string_view doc_, PortType type_, Role role_, Shape shape, bool optional_)
-    : name(name_), doc(doc_), type(type_), role(role_), optional(optional_), format(shape.format), extent(shape.extent), count(shape.count) {
+    : name(name_),
+      doc(doc_),
+      type(type_),
+      role(role_),
+      optional(optional_),
+      format(shape.format),
+      extent(shape.extent),
+      count(shape.count) {
     pass->ports.push_back(this);
 }
 

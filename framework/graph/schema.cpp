@@ -35,7 +35,9 @@ const char* kindName(const Parameter& p) {
     return names[p.initial.index()];
 }
 
-bool isNumber(const Parameter& p) { return !p.isChoice() && (std::holds_alternative<int>(p.initial) || std::holds_alternative<float>(p.initial)); }
+bool isNumber(const Parameter& p) {
+    return !p.isChoice() && (std::holds_alternative<int>(p.initial) || std::holds_alternative<float>(p.initial));
+}
 
 Json choicesOf(const Parameter& p) {
     Json choices = Json::array();
@@ -162,12 +164,13 @@ std::string sizeText(const Port& port) {
     if (port.type.kind == PortType::Kind::image) {
         const std::string base = port.extent.like.empty() ? "frame" : "like " + std::string(port.extent.like);
         if (port.extent.scale == 1) return base;
-        return port.extent.like.empty() ? fmt::format("{} of the frame", port.extent.scale) : fmt::format("{} of {}", port.extent.scale, port.extent.like);
+        return port.extent.like.empty() ? fmt::format("{} of the frame", port.extent.scale)
+                                        : fmt::format("{} of {}", port.extent.scale, port.extent.like);
     }
     switch (port.count.kind) {
-        case Count::Kind::perPixel: return fmt::format("{} per pixel", port.count.number);
-        case Count::Kind::fixed: return fmt::format("{} elements", port.count.number);
-        case Count::Kind::like: break;
+    case Count::Kind::perPixel: return fmt::format("{} per pixel", port.count.number);
+    case Count::Kind::fixed: return fmt::format("{} elements", port.count.number);
+    case Count::Kind::like: break;
     }
     return "like " + std::string(port.count.like);
 }

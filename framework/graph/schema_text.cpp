@@ -26,14 +26,16 @@ std::string shapeText(const Port& port) {
 
 std::vector<Row> portRows(const PassType& type) {
     std::vector<Row> rows;
-    for (const Port* port : type.pass->ports) rows.push_back({std::string(port->name), roleText(*port), port->type.text(), shapeText(*port), std::string(port->doc)});
+    for (const Port* port : type.pass->ports)
+        rows.push_back({std::string(port->name), roleText(*port), port->type.text(), shapeText(*port), std::string(port->doc)});
     return rows;
 }
 
 std::vector<Row> parameterRows(const PassType& type) {
     std::vector<Row> rows;
     for (const Parameter* p : type.pass->parameters) {
-        rows.push_back({std::string(p->name), p->typeText() + (p->constant ? ", constant" : ""), writeValue(*p, p->initial).dump(-1), std::string(p->doc)});
+        rows.push_back({std::string(p->name), p->typeText() + (p->constant ? ", constant" : ""), writeValue(*p, p->initial).dump(-1),
+                        std::string(p->doc)});
     }
     return rows;
 }

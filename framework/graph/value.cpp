@@ -15,7 +15,8 @@ std::string describe(const Parameter& p) {
 
 template <class T, class N> T within(const Parameter& p, const Json& value, const std::string& what, N number) {
     if (number >= static_cast<N>(std::get<T>(p.low)) && number <= static_cast<N>(std::get<T>(p.high))) return static_cast<T>(number);
-    throw Error(value.where(), fmt::format("{} must be {}..{}, not {}", what, std::get<T>(p.low), std::get<T>(p.high), value.dump(-1)), describe(p));
+    throw Error(value.where(), fmt::format("{} must be {}..{}, not {}", what, std::get<T>(p.low), std::get<T>(p.high), value.dump(-1)),
+                describe(p));
 }
 
 int readChoice(const Parameter& p, const Json& value, const std::string& what) {

@@ -22,7 +22,7 @@ using bvh::Reference;
 
 // Cost of testing one triangle, in visits to a node, as measured for packets on lavapipe (docs/rays.md).
 constexpr float triangleCost = 0.3f;
-constexpr std::size_t maxTriangles = std::size_t(1) << 28;  // bits of a leaf reference that hold its first triangle
+constexpr std::size_t maxTriangles = std::size_t(1) << 27;  // bits of a leaf reference that hold its first triangle
 constexpr float farthest = 1e18f;                           // squares of coordinates must stay finite
 constexpr std::size_t parallelNodes = 8192;                 // nodes of a binary subtree that are worth a task
 
@@ -220,13 +220,10 @@ void writeNodes(std::span<Reference> references, const Bounds& wanted, std::uint
         out.root = writer.write(0);
         return !writer.tooDeep();
     };
-    {
-        const BinaryTree tree = bvh::buildBinaryTree(references);
-        if (attempt(tree, Collapse(tree, maxLeaf))) return;
-    }
-    // Input made to be deep, such as sizes that shrink without end: halving needs log2(2^28) = 28 levels, two for each of the 15 allowed.
-    const BinaryTree tree = bvh::buildBinaryTree(references, 0);
-    attempt(tree, PairCollapse(tree, maxLeaf));
+    // Two binary levels make one wide level at worst, so that the second attempt can't fail. It serves input made to be deep, such as
+    // sizes that shrink without end.
+    const BinaryTree tree = bvh::buildBinaryTree(references, 2 * bvhDepth);
+    if (!attempt(tree, Collapse(tree, maxLeaf))) attempt(tree, PairCollapse(tree, maxLeaf));
 }
 
 Bounds boundsOfPoint(glm::vec3 p) {
@@ -251,6 +248,8 @@ std::uint32_t relocated(std::uint32_t reference, std::size_t firstNode, std::siz
 }
 
 std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle) {
+    if (firstTriangle + bvh.triangles.size() > maxTriangles)
+        throw Error(fmt::format("the scene has more than {} triangles", maxTriangles), "show fewer levels or simpler meshes");
     const std::size_t firstNode = nodes.size();
     for (BvhNode node : bvh.nodes) {
         for (std::size_t child = 9; child < 16; child += 2)
@@ -263,8 +262,7 @@ std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size
 Bvh buildBvh(const BvhInput& input) {
     const auto& [positions, triangles, masks, wanted] = input;
     if (triangles.size() >= maxTriangles) {
-        throw Error(fmt::format("a mesh of {} triangles is too large; at most {} fit", triangles.size(), maxTriangles - 1),
-                    "split it into several meshes");
+        throw Error(fmt::format("a mesh of {} triangles is too large; at most {} fit", triangles.size(), maxTriangles - 1), "simplify it");
     }
     std::vector<Reference> references(triangles.size());
     parallelFor(triangles.size(), 16384, [&](std::size_t begin, std::size_t end) {
@@ -281,7 +279,12 @@ Bvh buildBvh(const BvhInput& input) {
 
     Bvh bvh;
     if (references.empty()) return bvh;
-    writeNodes(std::span(references), boundsOfBox(wanted), 4, [](const BinaryNode& n) { return bvh_ref::leaf | (n.count - 1) << 28 | n.first; }, bvh);
+    const auto leafReference = [&](const BinaryNode& n) {
+        const auto isMasked = [&](const Reference& r) { return !masks.empty() && masks[r.index] != 0; };
+        const bool masked = std::ranges::any_of(std::span(references).subspan(n.first, n.count), isMasked);
+        return bvh_ref::leaf | (n.count - 1) << 28 | (masked ? bvh_ref::masked : 0) | n.first;
+    };
+    writeNodes(std::span(references), boundsOfBox(wanted), 4, leafReference, bvh);
 
     bvh.order.resize(references.size());
     bvh.triangles.resize(references.size());

@@ -12,10 +12,11 @@
 
 namespace lodestir {
 
-/// Node references: below 0x80000000 a node index; 0x80000000 | (count - 1) << 28 | first: a leaf of 1..4 triangles;
+/// Node references: below 0x80000000 a node index; 0x80000000 | (count - 1) << 28 | masked << 27 | first: a leaf of 1..4
+/// triangles, masked: one of them has a `mask`;
 /// 0xd0000000: return from an instance; 0xe0000000 | index: an instance; 0xffffffff: none.
 namespace bvh_ref {
-inline constexpr std::uint32_t leaf = 0x80000000u, back = 0xd0000000u, instance = 0xe0000000u, empty = 0xffffffffu;
+inline constexpr std::uint32_t leaf = 0x80000000u, masked = 0x08000000u, back = 0xd0000000u, instance = 0xe0000000u, empty = 0xffffffffu;
 }
 
 /// Dword 2i holds word i of {X0..X3, Y0..Y3}, dword 2i + 1 word i of {Z0..Z3, C0..C3};
@@ -39,13 +40,13 @@ struct Bvh {
     std::vector<std::uint32_t> order;         ///< BVH order -> input triangle
 };
 
-/// Nodes on the way from the root to any leaf, at most. Traversal keeps up to three references for each: `bvhStack` slots hold them all.
-inline constexpr int bvhDepth = 15, bvhStack = 48;
+/// Nodes on the way from the root to any leaf, at most. Traversal keeps up to three references for each and one below them: `bvhStack` slots.
+inline constexpr int bvhDepth = 21, bvhStack = 64;
 
 /// A reference as it reads when its BVH's nodes and triangles stand behind others in shared arrays. An empty BVH becomes bvh_ref::back,
 /// from which traversal returns at once, so the result may always stand in a table of roots.
 LODESTIR_API std::uint32_t relocated(std::uint32_t reference, std::size_t firstNode, std::size_t firstTriangle);
-/// Appends the nodes with their references relocated; returns the relocated root.
+/// Appends the nodes with their references relocated; returns the relocated root. Error when a triangle's number needs more than 27 bits.
 LODESTIR_API std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle);
 
 struct Box {
@@ -61,7 +62,7 @@ struct BvhInput {
     Box grid = {};
 };
 /// Builds the hierarchy of one mesh level. Parallel, the same bits for any core count. Triangles with a corner that isn't finite
-/// (or beyond 1e18) can't be hit and are left out of `order`. Error above 2^28 triangles.
+/// (or beyond 1e18) can't be hit and are left out of `order`. Error from 2^27 triangles on.
 LODESTIR_API Bvh buildBvh(const BvhInput& input);
 /// The same, kept in the cache folder by content where building takes longer than reading (from 16384 triangles on).
 LODESTIR_API Bvh cachedBvh(const BvhInput& input);

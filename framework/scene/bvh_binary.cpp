@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <mutex>
 
@@ -178,7 +179,7 @@ std::size_t split(std::span<Reference> references, const Extent& extent, bool he
 struct Builder {
     std::span<Reference> references;
     BinaryNode* nodes;
-    int heuristicDepth;
+    int maxDepth;
 
     void build(std::size_t node, std::size_t first, std::size_t count, int depth) const {
         const std::span<Reference> mine = references.subspan(first, count);
@@ -192,7 +193,8 @@ struct Builder {
         }
         const Extent extent = extentOf(mine);
         n.bounds = extent.bounds;
-        const std::size_t left = split(mine, extent, depth < heuristicDepth);
+        // The worst split leaves count - 1 on one side, a level deeper; halves must still fit below.
+        const std::size_t left = split(mine, extent, depth + 1 + int(std::bit_width(count - 1)) <= maxDepth);
         n.leftCount = std::uint32_t(left);
         const auto buildLeft = [&] { build(node + 1, first, left, depth + 1); };
         const auto buildRight = [&] { build(node + 2 * left, first + left, count - left, depth + 1); };
@@ -207,11 +209,11 @@ struct Builder {
 
 }  // namespace
 
-BinaryTree buildBinaryTree(std::span<Reference> references, int heuristicDepth) {
+BinaryTree buildBinaryTree(std::span<Reference> references, int maxDepth) {
     BinaryTree tree;
     tree.size = 2 * references.size() - 1;
     tree.nodes = std::make_unique_for_overwrite<BinaryNode[]>(tree.size);
-    Builder{references, tree.nodes.get(), heuristicDepth}.build(0, 0, references.size(), 0);
+    Builder{references, tree.nodes.get(), maxDepth}.build(0, 0, references.size(), 0);
     return tree;
 }
 

@@ -53,11 +53,9 @@ struct BinaryTree {
     std::size_t right(std::size_t node) const { return node + 2 * std::size_t(nodes[node].leftCount); }
 };
 
-/// Below this depth of the binary tree splits are halves, whatever they cost, so that recursion ends soon for any input.
-inline constexpr int deepestHeuristic = 64;
-
-/// Sorts the references into leaf order and builds the tree over them (at least one). Nodes deeper than `heuristicDepth` split in halves.
-/// Parallel; the result doesn't depend on the number of cores.
-BinaryTree buildBinaryTree(std::span<Reference> references, int heuristicDepth = deepestHeuristic);
+/// Sorts the references into leaf order and builds the tree over them (at least one). No leaf is deeper than `maxDepth` splits, which must
+/// be at least log2 of their number: what would become deeper is split in halves, whatever that costs. Parallel; the result doesn't depend on
+/// the number of cores.
+BinaryTree buildBinaryTree(std::span<Reference> references, int maxDepth);
 
 }  // namespace lodestir::bvh

@@ -13,10 +13,13 @@
 namespace lodestir {
 namespace {
 
+/// Is there anything made to light the rest? A texture that glows with no more than 1 is a display or a pilot lamp: it shows in the dark, but a
+/// model that has no other light was meant for a viewer that brings its own.
 bool hasLight(const Scene& scene) {
     if (!scene.lights.empty()) return true;
     return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-        return std::max({m.emission.r, m.emission.g, m.emission.b}) > 0;
+        const float emission = std::max({m.emission.r, m.emission.g, m.emission.b});
+        return m.emissiveMap.texture == none ? emission > 0 : emission > 1;
     });
 }
 

@@ -5,6 +5,7 @@
 #include <framework/scene/alias_table.h>
 #include <framework/scene/bvh.h>
 #include <framework/scene/environment_table.h>
+#include <framework/scene/level_policy.h>
 #include <framework/scene/light_list.h>
 #include <framework/scene/mipmaps.h>
 #include <framework/scene/pack.h>
@@ -121,7 +122,7 @@ struct WorldBuilder::Fixed {
     std::vector<BvhNode> nodes;  // of all mesh levels; kept so that a top level can be set behind them
     std::vector<Box> bounds, grids;  // of each mesh: box over its levels; grid base and scale
     std::vector<MeshEmitters> emitters;
-    gpu::Buffer triangles, roots, levels, primitives, emitterIndices, positions, vertices, materials, textures, texels, environment;
+    gpu::Buffer triangles, roots, primitives, emitterIndices, positions, vertices, materials, textures, texels, environment;
     std::size_t bytes = 0;
 };
 
@@ -131,6 +132,12 @@ struct WorldBuilder::Moving {
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
     std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
     float radius = 1;
+};
+
+/// Of each instance.
+struct WorldBuilder::Levels {
+    std::vector<std::uint32_t> values;
+    gpu::Buffer buffer;
 };
 
 WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : device_(device), scene_(scene) {
@@ -208,7 +215,6 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
     };
     fixed->triangles = upload(triangles, "triangles");
     fixed->roots = upload(roots, "roots");
-    fixed->levels = upload(std::vector<std::uint32_t>(scene.instances.size(), 0), "levels");
     fixed->primitives = upload(primitives, "primitives");
     fixed->emitterIndices = upload(emitterIndices, "emitters");
     fixed->positions = upload(positions, "positions");
@@ -284,12 +290,17 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
         moving_ = makeMoving(matrices);
         matrices_ = std::move(matrices);
     }
+    std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
+    if (!levels_ || levels != levels_->values) {
+        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(levels), "levels");
+        levels_ = std::make_shared<const Levels>(std::move(levels), std::move(buffer));
+    }
     World w{};
     w.nodes = moving_->nodes.address();
     w.triangles = fixed_->triangles.address();
     w.traceInstances = moving_->traceInstances.address();
     w.roots = fixed_->roots.address();
-    w.levels = fixed_->levels.address();
+    w.levels = levels_->buffer.address();
     w.gridBase = moving_->gridBase;
     w.gridScale = moving_->gridScale;
     w.topRoot = moving_->topRoot;
@@ -313,8 +324,9 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     struct Keep {
         std::shared_ptr<const Fixed> fixed;
         std::shared_ptr<const Moving> moving;
+        std::shared_ptr<const Levels> levels;
     };
-    return {w, std::make_shared<Keep>(Keep{fixed_, moving_})};
+    return {w, std::make_shared<Keep>(Keep{fixed_, moving_, levels_})};
 }
 
 }  // namespace lodestir

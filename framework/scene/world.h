@@ -20,14 +20,15 @@ class LODESTIR_API WorldBuilder {
 public:
     WorldBuilder(const gpu::Device& device, const Scene& scene);
     ~WorldBuilder();
-    /// The World at a frame (fractions are fine), for an image of `size` pixels. Transforms, the top level and lights are
-    /// made anew only when something moved; a World handed out earlier stays as it was.
+    /// The World at a frame (fractions are fine), for an image of `size` pixels, with the levels of the scene's own policy. Transforms, the
+    /// top level and lights are made anew only when something moved; a World handed out earlier stays as it was.
     FrameWorld at(float frame, glm::uvec2 size);
     std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
 
 private:
     struct Fixed;
     struct Moving;
+    struct Levels;
     std::shared_ptr<const Moving> makeMoving(const std::vector<glm::mat4>& matrices) const;
 
     const gpu::Device& device_;
@@ -35,6 +36,7 @@ private:
     std::shared_ptr<const Fixed> fixed_;
     std::shared_ptr<const Moving> moving_;
     std::vector<glm::mat4> matrices_;  ///< that moving_ was made for
+    std::shared_ptr<const Levels> levels_;
 };
 
 }  // namespace lodestir

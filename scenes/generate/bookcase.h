@@ -14,7 +14,7 @@ namespace lodestir::generate {
 /// Size of a closed book standing upright: thickness (x), height (y), depth from spine to fore-edge (z).
 struct Book {
     glm::vec3 size;
-    glm::vec3 cloth;    ///< linear colour of the cover
+    glm::vec3 cloth;  ///< linear colour of the cover
     bool gilded = false;
 };
 

@@ -16,7 +16,7 @@ constexpr float tau = 6.2831853f;
 }
 
 Textures paintWeave(uint32_t seed, int width) {
-    constexpr int threads = 48;   // per repeat, 3.3 mm apart
+    constexpr int threads = 48;  // per repeat, 3.3 mm apart
     const Noise slub{seed, {6, threads, 0}};
     const Noise fuzz{seed + 1, {96, 96, 0}};
     return paint({.width = width, .height = width, .metres = glm::vec2(weaveSize)}, [&](const glm::vec2& p) {
@@ -65,12 +65,16 @@ Textures paintRug(uint32_t seed, int width, const glm::vec2& metres) {
             const glm::vec2 f = glm::abs(g - glm::floor(g) - 0.5f);
             const float lozenge = f.x + f.y;
             const bool odd = (int(std::floor(g.x) + std::floor(g.y)) % 2) != 0;
-            if (lozenge < 0.09f) color = odd ? rust : blue;
-            else if (lozenge < 0.13f) color = cream;
-            else if (lozenge < 0.19f) color = ink;
-            else if (std::abs(lozenge - 0.5f) < 0.045f) color = odd ? blue : rust;
+            if (lozenge < 0.09f)
+                color = odd ? rust : blue;
+            else if (lozenge < 0.13f)
+                color = cream;
+            else if (lozenge < 0.19f)
+                color = ink;
+            else if (std::abs(lozenge - 0.5f) < 0.045f)
+                color = odd ? blue : rust;
         }
-        const float dye = noise.fractal({c.x * 0.8f, c.y * 26, 4.5f}, 3);   // dye lots change between rows
+        const float dye = noise.fractal({c.x * 0.8f, c.y * 26, 4.5f}, 3);  // dye lots change between rows
         const float pile = noise.fractal(glm::vec3(p * 160.0f, 0.5f), 3, 0.7f);
         const float wear = noise.fractal(glm::vec3(p * 2.2f, 8.5f), 4);
         Surface s;
@@ -92,7 +96,7 @@ Mesh curtain(uint32_t seed, float width, float height) {
         const float gathered = 1 - 0.05f * std::sin(v * tau / 2);
         return glm::vec3((u - 0.5f) * width * gathered + 0.010f * std::sin(2 * phase) * v, -v * height, depth * std::sin(phase) + sway);
     });
-    scaleUv(mesh, {1.5f * width, height});   // the cloth is half again as long as the span it covers
+    scaleUv(mesh, {1.5f * width, height});  // the cloth is half again as long as the span it covers
     return mesh;
 }
 
@@ -101,7 +105,8 @@ Mesh rug(uint32_t seed, const glm::vec2& metres) {
     constexpr float thickness = 0.012f;
     Mesh mesh = bent(roundedBox({metres.x, thickness, metres.y}, 0.005f, 2, Axis::x, 16), [&](const glm::vec3& p) {
         const float wave = 0.5f + 0.5f * noise.fractal({p.x * 1.4f, 0.5f, p.z * 1.4f}, 3);
-        return glm::vec3(p.x + 0.006f * noise.at({p.z * 3, 1.5f, 0.5f}), p.y + thickness / 2 + (p.y > 0 ? 0.004f * wave : 0.0f), p.z + 0.006f * noise.at({p.x * 3, 4.5f, 0.5f}));
+        return glm::vec3(p.x + 0.006f * noise.at({p.z * 3, 1.5f, 0.5f}), p.y + thickness / 2 + (p.y > 0 ? 0.004f * wave : 0.0f),
+                         p.z + 0.006f * noise.at({p.x * 3, 4.5f, 0.5f}));
     });
     for (Vertex& v : mesh.vertices) v.uv = {v.position.x / metres.x + 0.5f, v.position.z / metres.y + 0.5f};
 

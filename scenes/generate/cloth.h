@@ -18,7 +18,8 @@ constexpr float weaveSize = 0.16f;
 /// A wool rug: cream field with dark lozenges inside a border. The picture covers the whole rug of `metres`.
 Textures paintRug(uint32_t seed, int width, const glm::vec2& metres);
 
-/// A curtain of `width` x `height` hanging in folds from its upper edge at y = 0, spread along x; folds deepen towards the hem. UVs in metres.
+/// A curtain of `width` x `height` hanging in folds from its upper edge at y = 0, spread along x; folds deepen towards the hem. UVs in
+/// metres.
 Mesh curtain(uint32_t seed, float width, float height);
 
 /// The rug itself, lying on y = 0: a slab with softly waved top and fringes at its short (x) ends. UVs span the picture.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Cornell box, from the measured data of the Cornell University Program of Computer Graphics ("Cornell Box Data", geometry in millimetres),
-// and a glossy variant with spheres of glass and rough gold.
+// The Cornell box, from the measured data of the Cornell University Program of Computer Graphics ("Cornell Box Data", geometry in
+// millimetres), and a glossy variant with spheres of glass and rough gold.
 #include <array>
 
 #include "glb.h"
@@ -17,7 +17,7 @@ using Quad = std::array<Corner, 4>;
 /// Millimetres of the published data to scene units: the box is about 5.5 units wide.
 constexpr float scale = 0.01f;
 
-/// One quad as listed (counter-clockwise from inside the box), its UVs filling a cell of an atlas so that no two faces of an object share texels.
+/// One quad as listed (counter-clockwise from inside the box), its UVs filling a cell of an atlas: no two faces of an object share texels.
 Mesh face(const Quad& quad, const glm::vec2& cell = glm::vec2(0), const glm::vec2& cells = glm::vec2(1)) {
     const glm::vec2 corners[4] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     constexpr float margin = 0.02f;
@@ -49,25 +49,31 @@ struct Paints {
 
 /// The measured spectra as linear Rec.709 reflectances; the lamp's spectrum as radiance, rounded.
 Paints addPaints(Glb& glb) {
-    return {glb.addMaterial({.name = "white", .color = {0.725f, 0.71f, 0.68f}}), glb.addMaterial({.name = "red", .color = {0.63f, 0.065f, 0.05f}}),
+    return {glb.addMaterial({.name = "white", .color = {0.725f, 0.71f, 0.68f}}),
+            glb.addMaterial({.name = "red", .color = {0.63f, 0.065f, 0.05f}}),
             glb.addMaterial({.name = "green", .color = {0.14f, 0.45f, 0.091f}}),
             glb.addMaterial({.name = "light", .color = {0.78f, 0.78f, 0.78f}, .emission = {18.4f, 14.0f, 6.8f}})};
 }
 
 void addBox(Glb& glb, const Paints& paints) {
-    constexpr float y = 548.8f;
+    constexpr float y = 548.8f, back = 559.2f;
     Model room{"room", {}};
-    room.add(paints.white, face({{{552.8f, 0, 0}, {0, 0, 0}, {0, 0, 559.2f}, {549.6f, 0, 559.2f}}}, {0, 0}, {3, 2}));                // floor
-    room.add(paints.white, face({{{549.6f, 0, 559.2f}, {0, 0, 559.2f}, {0, y, 559.2f}, {556, y, 559.2f}}}, {1, 0}, {3, 2}));        // back
-    room.add(paints.green, face({{{0, 0, 559.2f}, {0, 0, 0}, {0, y, 0}, {0, y, 559.2f}}}));                                         // right
-    room.add(paints.red, face({{{552.8f, 0, 0}, {549.6f, 0, 559.2f}, {556, y, 559.2f}, {556, y, 0}}}));                             // left
+    int cell = 0;
+    const auto wall = [&](int material, const Quad& quad) {
+        room.add(material, face(quad, {cell % 3, cell / 3}, {3, 3}));
+        ++cell;
+    };
+    wall(paints.white, {{{552.8f, 0, 0}, {0, 0, 0}, {0, 0, back}, {549.6f, 0, back}}});     // floor
+    wall(paints.white, {{{549.6f, 0, back}, {0, 0, back}, {0, y, back}, {556, y, back}}});  // back
+    wall(paints.green, {{{0, 0, back}, {0, 0, 0}, {0, y, 0}, {0, y, back}}});               // right
+    wall(paints.red, {{{552.8f, 0, 0}, {549.6f, 0, back}, {556, y, back}, {556, y, 0}}});   // left
 
     // The ceiling has a hole where the lamp sits; four strips leave it open.
     constexpr float x0 = 213, x1 = 343, z0 = 227, z1 = 332;
-    room.add(paints.white, face({{{556, y, 0}, {556, y, z0}, {0, y, z0}, {0, y, 0}}}, {2, 0}, {3, 2}));
-    room.add(paints.white, face({{{556, y, z1}, {556, y, 559.2f}, {0, y, 559.2f}, {0, y, z1}}}, {0, 1}, {3, 2}));
-    room.add(paints.white, face({{{556, y, z0}, {556, y, z1}, {x1, y, z1}, {x1, y, z0}}}, {1, 1}, {3, 2}));
-    room.add(paints.white, face({{{x0, y, z0}, {x0, y, z1}, {0, y, z1}, {0, y, z0}}}, {2, 1}, {3, 2}));
+    wall(paints.white, {{{556, y, 0}, {556, y, z0}, {0, y, z0}, {0, y, 0}}});
+    wall(paints.white, {{{556, y, z1}, {556, y, back}, {0, y, back}, {0, y, z1}}});
+    wall(paints.white, {{{556, y, z0}, {556, y, z1}, {x1, y, z1}, {x1, y, z0}}});
+    wall(paints.white, {{{x0, y, z0}, {x0, y, z1}, {0, y, z1}, {0, y, z0}}});
     glb.addNode(room);
 
     Model lamp{"light", {}};
@@ -96,8 +102,13 @@ void writeCornell(const std::filesystem::path& folder) {
     addBox(glossy, walls);
     // Reflectance of gold at normal incidence, linear Rec.709.
     const int gold = glossy.addMaterial({.name = "gold_rough", .color = {1.0f, 0.78f, 0.34f}, .roughness = 0.3f, .metalness = 1});
-    const int glass = glossy.addMaterial(
-        {.name = "glass", .roughness = 0, .transmission = 1, .ior = 1.5f, .thickness = 1.9f, .attenuation = {0.86f, 0.97f, 0.94f}, .attenuationDistance = 3});
+    const int glass = glossy.addMaterial({.name = "glass",
+                                          .roughness = 0,
+                                          .transmission = 1,
+                                          .ior = 1.5f,
+                                          .thickness = 1.9f,
+                                          .attenuation = {0.86f, 0.97f, 0.94f},
+                                          .attenuationDistance = 3});
     addObject(glossy, "tall_block", walls.white, block(tallTop));
     addObject(glossy, "glass_sphere", glass, sphere(128, 64), {.translation = {1.72f, 0.951f, 1.62f}, .scale = glm::vec3(0.95f)});
     addObject(glossy, "gold_sphere", gold, sphere(128, 64), {.translation = {4.02f, 0.751f, 1.35f}, .scale = glm::vec3(0.75f)});

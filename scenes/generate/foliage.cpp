@@ -51,7 +51,7 @@ Textures paintLeaf(uint32_t seed, int width) {
         s.color *= 1 - 0.3f * glm::smoothstep(0.06f, 0.0f, half - away);
         s.roughness = 0.33f + 0.08f * mottle + 0.1f * midrib;
         s.height = 9e-4f * midrib - 4e-4f * vein + 1e-4f * mottle;
-        const float inside = (half - away) * float(width);   // texels; the ramp is two wide, so that the cut is smooth
+        const float inside = (half - away) * float(width);  // texels; the ramp is two wide, so that the cut is smooth
         s.alpha = std::max(glm::clamp(0.5f + inside * 0.5f, 0.0f, 1.0f), away < 0.014f && t < 0.08f ? 1.0f : 0.0f);
         return s;
     });
@@ -68,7 +68,9 @@ Model rubberFig(const std::string& name, uint32_t seed, float height, int leaves
     std::vector<Stem> all;
     for (int i = 0; i < stems; ++i) {
         const float a = tau * (float(i) + random.next()) / float(stems);
-        all.push_back({{0.04f * std::cos(a), 0, 0.04f * std::sin(a)}, glm::vec3(std::cos(a), 0, std::sin(a)) * random.between(0.10f, 0.24f), height * random.between(0.72f, 1.0f)});
+        all.push_back({{0.04f * std::cos(a), 0, 0.04f * std::sin(a)},
+                       glm::vec3(std::cos(a), 0, std::sin(a)) * random.between(0.10f, 0.24f),
+                       height * random.between(0.72f, 1.0f)});
     }
     const auto at = [](const Stem& s, float t) { return s.from + s.height * (s.lean * t * t + glm::vec3(0, t, 0)); };
     for (const Stem& s : all) {
@@ -89,7 +91,8 @@ Model rubberFig(const std::string& name, uint32_t seed, float height, int leaves
         const glm::vec3 stalk = root + along * length * 0.22f;
         const Station petiole[] = {{root, height * 0.0032f}, {stalk, height * 0.0022f}};
         plant.add(materials.stem, tube(petiole, 6));
-        plant.add(materials.leaf, leafMesh(stalk, along, glm::normalize(glm::vec3(0, 1, 0) - out * 0.3f), length, random.between(0.15f, 0.45f)));
+        plant.add(materials.leaf,
+                  leafMesh(stalk, along, glm::normalize(glm::vec3(0, 1, 0) - out * 0.3f), length, random.between(0.15f, 0.45f)));
     }
     return plant;
 }
@@ -98,7 +101,8 @@ Model twigs(const std::string& name, uint32_t seed, float length, int count, con
     Random random(seed);
     Model plant{name, {}};
     for (int i = 0; i < count; ++i) {
-        const float a = tau * (float(i) + 0.6f * random.next()) / float(count), reach = random.between(0.35f, 0.85f), size = length * random.between(0.75f, 1.1f);
+        const float a = tau * (float(i) + 0.6f * random.next()) / float(count), reach = random.between(0.35f, 0.85f),
+                    size = length * random.between(0.75f, 1.1f);
         const glm::vec3 lean = glm::vec3(std::cos(a), 0, std::sin(a)) * reach;
         const auto at = [&](float t) { return size * (glm::vec3(0, t, 0) + lean * t * t * 0.8f); };
         std::vector<Station> stations;
@@ -107,7 +111,8 @@ Model twigs(const std::string& name, uint32_t seed, float length, int count, con
         for (int k = 0; k < 9; ++k) {
             const float t = 0.45f + 0.55f * (float(k) + 0.5f * random.next()) / 9, b = float(k) * 2.39996323f + a;
             const glm::vec3 out = glm::normalize(glm::vec3(std::cos(b), random.between(0.2f, 0.9f), std::sin(b)));
-            plant.add(materials.leaf, leafMesh(at(t), out, glm::normalize(glm::vec3(-out.x * 0.5f, 1, -out.z * 0.5f)), random.between(0.05f, 0.085f), random.between(0.1f, 0.4f)));
+            plant.add(materials.leaf, leafMesh(at(t), out, glm::normalize(glm::vec3(-out.x * 0.5f, 1, -out.z * 0.5f)),
+                                               random.between(0.05f, 0.085f), random.between(0.1f, 0.4f)));
         }
     }
     return plant;

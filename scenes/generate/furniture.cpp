@@ -19,11 +19,14 @@ namespace {
 
 /// A padded block: rounded, its top swollen by `bulge` and its faces eased; UVs on the weave.
 Mesh padded(const glm::vec3& size, float radius, float bulge) {
-    Mesh mesh = bent(roundedBox(size, radius, 3, Axis::x, 7), [&](const glm::vec3& p) {
-        const glm::vec3 t = glm::clamp(2.0f * p / size, -1.0f, 1.0f);
-        const glm::vec3 fall = 1.0f - t * t;
-        return p + bulge * glm::vec3(t.x * fall.y * fall.z * 0.5f, t.y * fall.x * fall.z, t.z * fall.x * fall.y * 0.7f);
-    }, 70);
+    Mesh mesh = bent(
+        roundedBox(size, radius, 3, Axis::x, 7),
+        [&](const glm::vec3& p) {
+            const glm::vec3 t = glm::clamp(2.0f * p / size, -1.0f, 1.0f);
+            const glm::vec3 fall = 1.0f - t * t;
+            return p + bulge * glm::vec3(t.x * fall.y * fall.z * 0.5f, t.y * fall.x * fall.z, t.z * fall.x * fall.y * 0.7f);
+        },
+        70);
     scaleUv(mesh, glm::vec2(1 / weaveSize));
     return mesh;
 }
@@ -51,13 +54,16 @@ Model diningTable(const Palette& palette, const glm::vec2& size) {
     const float width = size.x / boards;
     for (int i = 0; i < boards; ++i) {
         const float x = (float(i) + 0.5f) * width - size.x / 2;
-        table.add(palette.oak, placed(plank({width - 0.0006f, thickness, size.y}, Axis::z, uint32_t(900 + i), 0.0022f), {x, height - thickness / 2, 0}));
+        table.add(palette.oak,
+                  placed(plank({width - 0.0006f, thickness, size.y}, Axis::z, uint32_t(900 + i), 0.0022f), {x, height - thickness / 2, 0}));
     }
     const float inX = size.x / 2 - 0.10f, inZ = size.y / 2 - 0.16f;
     for (float x : {-1.0f, 1.0f}) {
-        table.add(palette.oak, placed(plank({0.022f, 0.075f, 2 * inZ}, Axis::z, 911, 0.004f), {x * (inX - 0.005f), height - thickness - 0.0375f, 0}));
+        table.add(palette.oak,
+                  placed(plank({0.022f, 0.075f, 2 * inZ}, Axis::z, 911, 0.004f), {x * (inX - 0.005f), height - thickness - 0.0375f, 0}));
         for (float z : {-1.0f, 1.0f})
-            table.add(palette.oak, rod({x * (inX + 0.035f), 0, z * (inZ + 0.045f)}, {x * (inX - 0.005f), height - thickness, z * inZ}, 0.017f, 0.030f, uint32_t(920 + x + 3 * z)));
+            table.add(palette.oak, rod({x * (inX + 0.035f), 0, z * (inZ + 0.045f)}, {x * (inX - 0.005f), height - thickness, z * inZ},
+                                       0.017f, 0.030f, uint32_t(920 + x + 3 * z)));
     }
     for (float z : {-1.0f, 1.0f})
         table.add(palette.oak, placed(plank({2 * inX, 0.075f, 0.022f}, Axis::x, 913, 0.004f), {0, height - thickness - 0.0375f, z * inZ}));
@@ -67,7 +73,9 @@ Model diningTable(const Palette& palette, const glm::vec2& size) {
 Model chair(const Palette& palette) {
     Model chair{"chair", {}};
     constexpr float seat = 0.45f;
-    const auto bar = [&](const glm::vec3& from, const glm::vec3& to, float r0, float r1, uint32_t seed) { chair.add(palette.oak, rod(from, to, r0, r1, seed)); };
+    const auto bar = [&](const glm::vec3& from, const glm::vec3& to, float r0, float r1, uint32_t seed) {
+        chair.add(palette.oak, rod(from, to, r0, r1, seed));
+    };
 
     for (float x : {-1.0f, 1.0f}) {
         bar({x * 0.215f, 0, -0.215f}, {x * 0.185f, seat - 0.012f, -0.175f}, 0.0115f, 0.018f, uint32_t(30 + x));
@@ -77,15 +85,20 @@ Model chair(const Palette& palette) {
         bar({x * 0.203f, 0.20f, -0.196f}, {x * 0.194f, 0.24f, 0.208f}, 0.0085f, 0.0085f, uint32_t(39 + x));
     }
     bar({-0.198f, 0.22f, 0.01f}, {0.198f, 0.22f, 0.01f}, 0.0085f, 0.0085f, 42);
-    for (float z : {-0.172f, 0.182f}) chair.add(palette.oak, placed(plank({0.36f, 0.045f, 0.018f}, Axis::x, 43, 0.004f), {0, seat - 0.036f, z}));
-    for (float x : {-0.18f, 0.18f}) chair.add(palette.oak, placed(plank({0.018f, 0.045f, 0.34f}, Axis::z, 44, 0.004f), {x, seat - 0.036f, 0.005f}));
+    for (float z : {-0.172f, 0.182f})
+        chair.add(palette.oak, placed(plank({0.36f, 0.045f, 0.018f}, Axis::x, 43, 0.004f), {0, seat - 0.036f, z}));
+    for (float x : {-0.18f, 0.18f})
+        chair.add(palette.oak, placed(plank({0.018f, 0.045f, 0.34f}, Axis::z, 44, 0.004f), {x, seat - 0.036f, 0.005f}));
 
     // Seat: narrower at the back, dished where one sits, its front edge rolled down.
-    const Mesh board = bent(plank({0.45f, 0.024f, 0.43f}, Axis::z, 45, 0.009f, 9), [](const glm::vec3& p) {
-        const float x = p.x / 0.225f, z = p.z / 0.215f;
-        const float dish = 0.013f * (1 - x * x) * (1 - z * z) + 0.010f * std::max(-z - 0.55f, 0.0f);
-        return glm::vec3(p.x * (1 - 0.09f * (z + 1) * 0.5f), p.y - dish, p.z);
-    }, 60);
+    const Mesh board = bent(
+        plank({0.45f, 0.024f, 0.43f}, Axis::z, 45, 0.009f, 9),
+        [](const glm::vec3& p) {
+            const float x = p.x / 0.225f, z = p.z / 0.215f;
+            const float dish = 0.013f * (1 - x * x) * (1 - z * z) + 0.010f * std::max(-z - 0.55f, 0.0f);
+            return glm::vec3(p.x * (1 - 0.09f * (z + 1) * 0.5f), p.y - dish, p.z);
+        },
+        60);
     chair.add(palette.oak, placed(board, {0, seat, -0.005f}));
 
     // Backrest: one steamed board, curved around the sitter.
@@ -95,30 +108,39 @@ Model chair(const Palette& palette) {
             return glm::vec3(p.x, p.y * (1 - 0.12f * x * x), p.z + depth * (1 - x * x));
         };
     };
-    chair.add(palette.oak, placed(bent(plank({0.47f, 0.135f, 0.016f}, Axis::x, 46, 0.0075f, 10), curved(0.045f, 0.47f), 60), tilted({0, 0.735f, 0.236f}, 15, {1, 0, 0})));
-    chair.add(palette.oak, placed(bent(plank({0.40f, 0.045f, 0.013f}, Axis::x, 47, 0.006f, 10), curved(0.028f, 0.40f), 60), tilted({0, 0.580f, 0.205f}, 13, {1, 0, 0})));
+    chair.add(palette.oak, placed(bent(plank({0.47f, 0.135f, 0.016f}, Axis::x, 46, 0.0075f, 10), curved(0.045f, 0.47f), 60),
+                                  tilted({0, 0.735f, 0.236f}, 15, {1, 0, 0})));
+    chair.add(palette.oak, placed(bent(plank({0.40f, 0.045f, 0.013f}, Axis::x, 47, 0.006f, 10), curved(0.028f, 0.40f), 60),
+                                  tilted({0, 0.580f, 0.205f}, 13, {1, 0, 0})));
     return chair;
 }
 
 Model armchair(const Palette& palette) {
     Model chair{"armchair", {}};
-    const auto pad = [&](const glm::vec3& size, float radius, float bulge, const glm::mat4& where) { chair.add(palette.upholstery, placed(padded(size, radius, bulge), where)); };
+    const auto pad = [&](const glm::vec3& size, float radius, float bulge, const glm::mat4& where) {
+        chair.add(palette.upholstery, placed(padded(size, radius, bulge), where));
+    };
     const auto still = [](const glm::vec3& at) { return glm::translate(glm::mat4(1), at); };
-    pad({0.66f, 0.17f, 0.68f}, 0.02f, 0.004f, still({0, 0.245f, 0.0f}));                                // frame
-    pad({0.60f, 0.15f, 0.64f}, 0.055f, 0.035f, tilted({0, 0.385f, 0.055f}, -3, {1, 0, 0}));             // seat cushion
-    pad({0.76f, 0.58f, 0.15f}, 0.06f, 0.018f, tilted({0, 0.555f, -0.315f}, -13, {1, 0, 0}));            // back
-    pad({0.57f, 0.42f, 0.15f}, 0.06f, 0.040f, tilted({0, 0.625f, -0.205f}, -15, {1, 0, 0}));            // back cushion
+    pad({0.66f, 0.17f, 0.68f}, 0.02f, 0.004f, still({0, 0.245f, 0.0f}));                      // frame
+    pad({0.60f, 0.15f, 0.64f}, 0.055f, 0.035f, tilted({0, 0.385f, 0.055f}, -3, {1, 0, 0}));   // seat cushion
+    pad({0.76f, 0.58f, 0.15f}, 0.06f, 0.018f, tilted({0, 0.555f, -0.315f}, -13, {1, 0, 0}));  // back
+    pad({0.57f, 0.42f, 0.15f}, 0.06f, 0.040f, tilted({0, 0.625f, -0.205f}, -15, {1, 0, 0}));  // back cushion
     for (float x : {-1.0f, 1.0f}) {
-        pad({0.115f, 0.30f, 0.70f}, 0.045f, 0.012f, tilted({x * 0.355f, 0.43f, 0.005f}, -x * 3, {0, 0, 1}));   // arms
+        pad({0.115f, 0.30f, 0.70f}, 0.045f, 0.012f, tilted({x * 0.355f, 0.43f, 0.005f}, -x * 3, {0, 0, 1}));  // arms
         chair.add(palette.walnut, rod({x * 0.33f, 0, 0.33f}, {x * 0.295f, 0.18f, 0.295f}, 0.012f, 0.021f, uint32_t(70 + x)));
         chair.add(palette.walnut, rod({x * 0.33f, 0, -0.36f}, {x * 0.295f, 0.18f, -0.30f}, 0.012f, 0.021f, uint32_t(73 + x)));
     }
     const float y = 0.462f, z = 0.368f;
-    chair.add(palette.upholstery, piping({{-0.28f, y - 0.045f, z}, {-0.15f, y - 0.041f, z + 0.012f}, {0, y - 0.040f, z + 0.016f}, {0.15f, y - 0.041f, z + 0.012f}, {0.28f, y - 0.045f, z}}));
+    chair.add(palette.upholstery, piping({{-0.28f, y - 0.045f, z},
+                                          {-0.15f, y - 0.041f, z + 0.012f},
+                                          {0, y - 0.040f, z + 0.016f},
+                                          {0.15f, y - 0.041f, z + 0.012f},
+                                          {0.28f, y - 0.045f, z}}));
 
     Mesh pillow = cushion({0.42f, 0.15f, 0.42f}, 22);
     scaleUv(pillow, glm::vec2(0.42f / weaveSize));
-    chair.add(palette.cushion, placed(pillow, glm::rotate(tilted({0.10f, 0.625f, -0.075f}, 66, {1, 0, 0}), glm::radians(9.0f), glm::vec3(0, 1, 0))));
+    chair.add(palette.cushion,
+              placed(pillow, glm::rotate(tilted({0.10f, 0.625f, -0.075f}, 66, {1, 0, 0}), glm::radians(9.0f), glm::vec3(0, 1, 0))));
     return chair;
 }
 
@@ -138,7 +160,8 @@ Model sideTable(const Palette& palette, float radius, float height) {
     for (int i = 0; i < 3; ++i) {
         const float a = 6.2831853f * (float(i) + 0.15f) / 3;
         const glm::vec3 out(std::cos(a), 0, std::sin(a));
-        table.add(palette.walnut, rod(out * radius * 0.88f, out * radius * 0.52f + glm::vec3(0, height - 0.025f, 0), 0.011f, 0.019f, uint32_t(80 + i)));
+        table.add(palette.walnut,
+                  rod(out * radius * 0.88f, out * radius * 0.52f + glm::vec3(0, height - 0.025f, 0), 0.011f, 0.019f, uint32_t(80 + i)));
     }
     return table;
 }
@@ -151,7 +174,8 @@ Model pendantLamp(const Palette& palette, float drop) {
     lamp.add(palette.blackMetal, turned(rose, 40));
 
     // Spun dome: outside in black, inside enamelled white, a hair apart so that neither shows through.
-    const glm::vec2 dome[] = {{0.016f, 0.050f}, {0.022f, 0.030f}, {0.040f, 0.012f}, {0.100f, -0.020f}, {0.165f, -0.085f}, {0.198f, -0.165f}, {0.205f, -0.200f}};
+    const glm::vec2 dome[] = {{0.016f, 0.050f},  {0.022f, 0.030f},  {0.040f, 0.012f}, {0.100f, -0.020f},
+                              {0.165f, -0.085f}, {0.198f, -0.165f}, {0.205f, -0.200f}};
     std::vector<glm::vec2> outer = smoothCurve(dome, 5), inner;
     for (auto p = outer.rbegin(); p != outer.rend(); ++p)
         if (p->y < 0.006f) inner.push_back({std::max(p->x - 0.003f, 0.0f), p->y - 0.002f});
@@ -171,7 +195,8 @@ Model pendantLamp(const Palette& palette, float drop) {
 
 Model floorLamp(const Palette& palette) {
     Model lamp{"floor_lamp", {}};
-    const glm::vec2 base[] = {{0, 0.026f}, {0.012f, 0.026f}, {0.016f, 0.022f}, {0.118f, 0.014f}, {0.128f, 0.009f}, {0.130f, 0.003f}, {0.128f, 0}, {0, 0}};
+    const glm::vec2 base[] = {{0, 0.026f},      {0.012f, 0.026f}, {0.016f, 0.022f}, {0.118f, 0.014f},
+                              {0.128f, 0.009f}, {0.130f, 0.003f}, {0.128f, 0},      {0, 0}};
     lamp.add(palette.brass, turned(base, 56));
     const Station pole[] = {{{0, 0.02f, 0}, 0.008f}, {{0, 0.7f, 0}, 0.008f}, {{0, 1.32f, 0}, 0.008f}};
     lamp.add(palette.brass, tube(pole, 16));
@@ -186,7 +211,9 @@ Model floorLamp(const Palette& palette) {
     lamp.add(palette.shade, drum);
     for (const auto& [radius, y] : {std::pair{0.1643f, 1.55f}, std::pair{0.2043f, 1.25f}}) {
         std::vector<glm::vec2> wire;
-        for (int i = 0; i <= 8; ++i) wire.push_back({radius + 0.0025f * std::sin(6.2831853f * float(i % 8) / 8), y + 0.0025f * std::cos(6.2831853f * float(i % 8) / 8)});
+        for (int i = 0; i <= 8; ++i)
+            wire.push_back(
+                {radius + 0.0025f * std::sin(6.2831853f * float(i % 8) / 8), y + 0.0025f * std::cos(6.2831853f * float(i % 8) / 8)});
         lamp.add(palette.brass, turned(wire, 72, 180));
     }
     for (int i = 0; i < 3; ++i) {
@@ -202,7 +229,8 @@ Model pictureFrame(const std::string& name, const Palette& palette, const glm::v
     Model picture{name, {}};
     for (float side : {-1.0f, 1.0f}) {
         picture.add(frame, placed(plank({size.x, moulding, depth}, Axis::x, 50, 0.003f), {0, side * (size.y - moulding) / 2, depth / 2}));
-        picture.add(frame, placed(plank({moulding, size.y - 2 * moulding, depth}, Axis::y, 51, 0.003f), {side * (size.x - moulding) / 2, 0, depth / 2}));
+        picture.add(frame, placed(plank({moulding, size.y - 2 * moulding, depth}, Axis::y, 51, 0.003f),
+                                  {side * (size.x - moulding) / 2, 0, depth / 2}));
     }
     const glm::vec2 inner = size - 2 * moulding + 0.002f, window = inner - 2 * mat;
     if (mat > 0) {

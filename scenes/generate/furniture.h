@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Furniture of the interior: table, chair, armchair, side table, lamps, picture frame. Every piece stands on y = 0 unless it says otherwise.
+// Furniture of the interior: table, chair, armchair, side table, lamps, picture frame. Pieces stand on y = 0 unless they say otherwise.
 #pragma once
 
 #include <cstdint>

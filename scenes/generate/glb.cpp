@@ -21,8 +21,7 @@ constexpr int linear = 9729, linearMipmapLinear = 9987, repeat = 10497;
 /// Six decimals are finer than a float of this size; they keep the file short and the same everywhere.
 double tidy(float value) { return std::round(double(value) * 1e6) / 1e6; }
 
-template <int N>
-json array(const glm::vec<N, float>& v) {
+template <int N> json array(const glm::vec<N, float>& v) {
     json list = json::array();
     for (int i = 0; i < N; ++i) list.push_back(tidy(v[i]));
     return list;
@@ -82,7 +81,8 @@ Material Glb::dressed(Material material, const Textures& painted) {
 }
 
 int Glb::addMaterial(const Material& m) {
-    json surface = {{"baseColorFactor", array(glm::vec4(m.color, 1))}, {"metallicFactor", tidy(m.metalness)}, {"roughnessFactor", tidy(m.roughness)}};
+    json surface = {
+        {"baseColorFactor", array(glm::vec4(m.color, 1))}, {"metallicFactor", tidy(m.metalness)}, {"roughnessFactor", tidy(m.roughness)}};
     if (m.colorPicture != Material::none) surface["baseColorTexture"] = {{"index", m.colorPicture}};
     if (m.roughnessPicture != Material::none) surface["metallicRoughnessTexture"] = {{"index", m.roughnessPicture}};
 

@@ -26,13 +26,13 @@ struct Material {
     glm::vec3 color{1};
     float roughness = 1;
     float metalness = 0;
-    glm::vec3 emission{0};              ///< radiance, any size
+    glm::vec3 emission{0};  ///< radiance, any size
     float transmission = 0;
     float ior = 1.5f;
-    float thickness = 0;                ///< metres; above 0 the mesh bounds a volume
-    glm::vec3 attenuation{1};           ///< what is left of white light after `attenuationDistance`
+    float thickness = 0;       ///< metres; above 0 the mesh bounds a volume
+    glm::vec3 attenuation{1};  ///< what is left of white light after `attenuationDistance`
     float attenuationDistance = std::numeric_limits<float>::infinity();
-    bool mask = false;                  ///< cut out where alpha is below one half
+    bool mask = false;  ///< cut out where alpha is below one half
     bool doubleSided = false;
     int colorPicture = none;
     int normalPicture = none;
@@ -88,7 +88,7 @@ private:
     nlohmann::json pictures = nlohmann::json::array(), textures = nlohmann::json::array(), materials = nlohmann::json::array();
     nlohmann::json views = nlohmann::json::array(), accessors = nlohmann::json::array();
     nlohmann::json meshes = nlohmann::json::array(), nodes = nlohmann::json::array();
-    std::vector<nlohmann::json> geometries;   ///< primitives without their material
+    std::vector<nlohmann::json> geometries;  ///< primitives without their material
     std::vector<std::string> extensions;
     std::vector<uint8_t> binary;
 

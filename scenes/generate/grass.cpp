@@ -16,7 +16,7 @@ Mesh grassTuft(uint32_t seed, const Tuft& tuft) {
     for (int i = 0; i < tuft.blades; ++i) {
         const float heading = random.between(0, 6.2831853f), spread = std::sqrt(random.next()) * tuft.radius;
         const glm::vec3 outward(std::cos(heading), 0, std::sin(heading));
-        const float where = random.between(0, 6.2831853f);   // in a wide tuft blades bend every way, not only outward
+        const float where = random.between(0, 6.2831853f);  // in a wide tuft blades bend every way, not only outward
         const float length = tuft.height * random.between(0.55f, 1.15f), width = random.between(0.0022f, 0.0048f);
         const float lean = random.between(0.1f, 0.55f) + 0.22f * spread / tuft.radius, droop = random.between(0.3f, 1.5f);
         const glm::vec3 side = glm::normalize(glm::vec3(-outward.z, random.between(-0.3f, 0.3f), outward.x));
@@ -31,7 +31,8 @@ Mesh grassTuft(uint32_t seed, const Tuft& tuft) {
         for (int k = 0; k <= segments; ++k) {
             const float t = float(k) / float(segments);
             // Leaning out at the root and drooping with the square of the height.
-            const glm::vec3 p = root + outward * length * (lean * t + 0.35f * droop * t * t * t) + glm::vec3(0, length * (t - 0.22f * droop * t * t * t), 0);
+            const glm::vec3 p = root + outward * length * (lean * t + 0.35f * droop * t * t * t) +
+                                glm::vec3(0, length * (t - 0.22f * droop * t * t * t), 0);
             const float half = width * (1 - 0.75f * t * t) * 0.5f;
             const glm::vec3 face = glm::normalize(glm::cross(side, outward * (lean + droop * t * t) + glm::vec3(0, 1, 0)));
             Vertex v{.position = p - side * half, .normal = face, .uv = {0, 1 - t}, .color = tone * glm::mix(base, tip, t)};
@@ -45,7 +46,8 @@ Mesh grassTuft(uint32_t seed, const Tuft& tuft) {
             }
             mesh.add(v);
         }
-        for (uint32_t k = 0; k + 1 < uint32_t(segments); ++k) mesh.quad(first + 2 * k, first + 2 * k + 1, first + 2 * k + 3, first + 2 * k + 2);
+        for (uint32_t k = 0; k + 1 < uint32_t(segments); ++k)
+            mesh.quad(first + 2 * k, first + 2 * k + 1, first + 2 * k + 3, first + 2 * k + 2);
         const uint32_t last = first + 2 * (segments - 1);
         mesh.triangle(last, last + 1, last + 2);
     }
@@ -61,7 +63,8 @@ Mesh shrub(uint32_t seed, int leaves) {
     };
     std::vector<Dome> domes;
     for (int i = 0; i < 7; ++i)
-        domes.push_back({{random.between(-0.38f, 0.38f), random.between(0.16f, 0.42f), random.between(-0.38f, 0.38f)}, random.between(0.17f, 0.30f)});
+        domes.push_back(
+            {{random.between(-0.38f, 0.38f), random.between(0.16f, 0.42f), random.between(-0.38f, 0.38f)}, random.between(0.17f, 0.30f)});
 
     Mesh mesh;
     for (int i = 0; i < leaves; ++i) {

@@ -11,9 +11,9 @@ namespace lodestir::generate {
 /// What a tuft is made of.
 struct Tuft {
     int blades = 70;
-    float height = 0.2f;    ///< metres
-    float radius = 0.09f;   ///< of the ground the blades are rooted in, metres
-    float dryness = 0.7f;   ///< share of straw among green blades
+    float height = 0.2f;   ///< metres
+    float radius = 0.09f;  ///< of the ground the blades are rooted in, metres
+    float dryness = 0.7f;  ///< share of straw among green blades
 };
 
 /// Blades rooted around the origin. Colours are in the vertices: dark roots, straw or green tips.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A dining room on a summer afternoon: sun through a wide window on herringbone oak, a table, books, an armchair, a plant.
+// A dining room on a summer afternoon: sun through a wide window and a garden door on herringbone oak, a table, books, an armchair, a plant.
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bookcase.h"
@@ -76,12 +76,13 @@ void addDining(Glb& glb, const Palette& palette, const Room& room, const glm::ve
     const int seat = glb.addMesh(chair(palette));
     struct Seat {
         glm::vec2 offset;
-        float turn;   ///< degrees; a chair faces -z before it is turned
+        float turn;  ///< degrees; a chair faces -z before it is turned
     };
     const Seat seats[] = {{{-0.62f, -0.38f}, -90}, {{-0.60f, 0.40f}, -86}, {{0.63f, -0.40f}, 92}, {{0.80f, 0.46f}, 64}};
     int number = 0;
     for (const Seat& s : seats)
-        glb.addNode("chair_" + std::to_string(number++), seat, {.translation = at + glm::vec3(s.offset.x, 0, s.offset.y), .rotation = turnY(s.turn)});
+        glb.addNode("chair_" + std::to_string(number++), seat,
+                    {.translation = at + glm::vec3(s.offset.x, 0, s.offset.y), .rotation = turnY(s.turn)});
 
     const float lampHeight = 1.62f;
     glb.addNode(pendantLamp(palette, room.height - 0.05f - lampHeight), {.translation = {at.x, room.height - 0.001f, at.z - 0.05f}});
@@ -94,8 +95,12 @@ void addDining(Glb& glb, const Palette& palette, const Room& room, const glm::ve
     glb.addNode(mug("mug", palette.stoneware), {.translation = board + glm::vec3(0.27f, 0, 0.36f), .rotation = turnY(50)});
 
     Model papers{"table_books", {}};
-    addBook(papers, palette, {{0.030f, 0.24f, 0.17f}, {0.05f, 0.11f, 0.20f}, false}, glm::rotate(glm::rotate(glm::translate(glm::mat4(1), {-0.10f, 0.015f, 0.62f}), 0.5f, {0, 1, 0}), glm::radians(-90.0f), {0, 0, 1}));
-    addBook(papers, palette, {{0.022f, 0.21f, 0.15f}, {0.46f, 0.24f, 0.045f}, false}, glm::rotate(glm::rotate(glm::translate(glm::mat4(1), {-0.09f, 0.0415f, 0.605f}), 0.85f, {0, 1, 0}), glm::radians(-90.0f), {0, 0, 1}));
+    addBook(
+        papers, palette, {{0.030f, 0.24f, 0.17f}, {0.05f, 0.11f, 0.20f}, false},
+        glm::rotate(glm::rotate(glm::translate(glm::mat4(1), {-0.10f, 0.015f, 0.62f}), 0.5f, {0, 1, 0}), glm::radians(-90.0f), {0, 0, 1}));
+    addBook(papers, palette, {{0.022f, 0.21f, 0.15f}, {0.46f, 0.24f, 0.045f}, false},
+            glm::rotate(glm::rotate(glm::translate(glm::mat4(1), {-0.09f, 0.0415f, 0.605f}), 0.85f, {0, 1, 0}), glm::radians(-90.0f),
+                        {0, 0, 1}));
     glb.addNode(papers, {.translation = board});
 }
 
@@ -110,8 +115,10 @@ void addReading(Glb& glb, const Palette& palette, const glm::vec2& rugSize) {
     glb.addNode(mug("reading_mug", palette.clay), {.translation = top + glm::vec3(0.10f, 0, 0.06f), .rotation = turnY(200)});
     Model pile{"reading_books", {}};
     const glm::mat4 flat = glm::rotate(glm::mat4(1), glm::radians(-90.0f), {0, 0, 1});
-    addBook(pile, palette, {{0.026f, 0.22f, 0.155f}, {0.40f, 0.13f, 0.07f}, true}, glm::translate(glm::mat4(1), {-0.18f, 0.013f, 0.06f}) * flat);
-    addBook(pile, palette, {{0.018f, 0.20f, 0.14f}, {0.62f, 0.57f, 0.48f}, false}, glm::rotate(glm::translate(glm::mat4(1), {-0.165f, 0.0353f, 0.06f}), 0.2f, {0, 1, 0}) * flat);
+    addBook(pile, palette, {{0.026f, 0.22f, 0.155f}, {0.40f, 0.13f, 0.07f}, true},
+            glm::translate(glm::mat4(1), {-0.18f, 0.013f, 0.06f}) * flat);
+    addBook(pile, palette, {{0.018f, 0.20f, 0.14f}, {0.62f, 0.57f, 0.48f}, false},
+            glm::rotate(glm::translate(glm::mat4(1), {-0.165f, 0.0353f, 0.06f}), 0.2f, {0, 1, 0}) * flat);
     glb.addNode(pile, {.translation = top, .rotation = turnY(25)});
 
     Model carpet{"rug", {}};
@@ -120,11 +127,15 @@ void addReading(Glb& glb, const Palette& palette, const glm::vec2& rugSize) {
 }
 
 void addWallsAndPlants(Glb& glb, const Palette& palette, const Room& room) {
-    glb.addNode(bookcase(palette, 14, 1.50f, 2.05f), {.translation = {0.72f, 0, room.back + 0.02f}});   // clear of the skirting board
+    glb.addNode(bookcase(palette, 14, 1.50f, 2.05f), {.translation = {0.72f, 0, room.back + 0.02f}});  // clear of the skirting board
 
-    const auto art = [&](const std::string& name, const Textures& picture) { return glb.addMaterial(glb.dressed({.name = name}, picture)); };
-    glb.addNode(pictureFrame("print_1", palette, {0.50f, 0.66f}, 0.06f, palette.birch, art("art_print_1", paintPrint(41, 384, 512))), {.translation = {-1.38f, 1.62f, room.back}});
-    glb.addNode(pictureFrame("print_2", palette, {0.50f, 0.66f}, 0.06f, palette.birch, art("art_print_2", paintPrint(47, 384, 512))), {.translation = {-0.72f, 1.62f, room.back}});
+    const auto art = [&](const std::string& name, const Textures& picture) {
+        return glb.addMaterial(glb.dressed({.name = name}, picture));
+    };
+    glb.addNode(pictureFrame("print_1", palette, {0.50f, 0.66f}, 0.06f, palette.birch, art("art_print_1", paintPrint(41, 384, 512))),
+                {.translation = {-1.38f, 1.62f, room.back}});
+    glb.addNode(pictureFrame("print_2", palette, {0.50f, 0.66f}, 0.06f, palette.birch, art("art_print_2", paintPrint(47, 384, 512))),
+                {.translation = {-0.72f, 1.62f, room.back}});
     glb.addNode(pictureFrame("hills", palette, {0.78f, 0.60f}, 0.05f, palette.blackMetal, art("art_hills", paintHills(43, 512, 384))),
                 {.translation = {room.halfWidth, 1.60f, -0.75f}, .rotation = turnY(-90)});
 

@@ -38,7 +38,7 @@ Mesh rod(const glm::vec3& from, const glm::vec3& to, float radiusFrom, float rad
     head.insert(head.end(), stations.rbegin(), stations.rend());
 
     Mesh mesh = tube(head, 16);
-    for (Vertex& v : mesh.vertices) v.uv = glm::vec2(v.uv.y, v.uv.x) / panelSize + cut(seed);   // grain along the bar
+    for (Vertex& v : mesh.vertices) v.uv = glm::vec2(v.uv.y, v.uv.x) / panelSize + cut(seed);  // grain along the bar
     return mesh;
 }
 

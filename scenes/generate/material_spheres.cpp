@@ -16,10 +16,10 @@ namespace lodestir::generate {
 
 namespace {
 
-constexpr float radius = 0.5f;            ///< of every sphere, metres
+constexpr float radius = 0.5f;  ///< of every sphere, metres
 constexpr float spacing = 1.11f;
-constexpr float platformTop = 0.14f;      ///< slate table the front row stands on
-constexpr float stepTop = 0.95f;          ///< walnut bench of the back row
+constexpr float platformTop = 0.14f;  ///< slate table the front row stands on
+constexpr float stepTop = 0.95f;      ///< walnut bench of the back row
 constexpr float frontRow = 1.0f, backRow = -0.45f;
 
 // The ring below each sphere: its tube touches the sphere where the radii add up.
@@ -31,7 +31,7 @@ constexpr glm::vec3 gold{1.0f, 0.77f, 0.34f}, copper{0.95f, 0.64f, 0.54f}, steel
 /// Floor sweeping up into a wall, open towards the camera.
 Mesh backdrop() {
     constexpr float halfWidth = 16, front = 13, bend = 3.2f, wall = -4.5f, height = 10;
-    std::vector<glm::vec2> profile;   // (z, y) from the top of the wall to the front edge
+    std::vector<glm::vec2> profile;  // (z, y) from the top of the wall to the front edge
     profile.push_back({wall, height});
     constexpr int steps = 32;
     for (int i = 0; i <= steps; ++i) {
@@ -78,7 +78,8 @@ float centreHeight(float ground) {
 Mesh inkedSphere() {
     Mesh mesh = sphere(256, 128);
     const Noise noise{71};
-    const glm::vec3 inks[] = {{0.02f, 0.10f, 0.30f}, {0.05f, 0.42f, 0.45f}, {0.85f, 0.75f, 0.55f}, {0.85f, 0.28f, 0.08f}, {0.35f, 0.02f, 0.06f}};
+    const glm::vec3 inks[] = {
+        {0.02f, 0.10f, 0.30f}, {0.05f, 0.42f, 0.45f}, {0.85f, 0.75f, 0.55f}, {0.85f, 0.28f, 0.08f}, {0.35f, 0.02f, 0.06f}};
     for (Vertex& v : mesh.vertices) {
         const glm::vec3 p = v.position * 1.3f;
         const glm::vec3 warp(noise.fractal(p, 3), noise.fractal(p + 13.7f, 3), noise.fractal(p + 31.3f, 3));
@@ -103,7 +104,8 @@ Textures paintPerforation() {
         // The lattice is sorted by height, so only the holes of a band around the point can be near.
         const int middle = int((1 - d.y) * 0.5f * float(count)), reach = 36;
         float nearest = -1;
-        for (int i = std::max(middle - reach, 0); i < std::min(middle + reach, count); ++i) nearest = std::max(nearest, glm::dot(holes[size_t(i)], d));
+        for (int i = std::max(middle - reach, 0); i < std::min(middle + reach, count); ++i)
+            nearest = std::max(nearest, glm::dot(holes[size_t(i)], d));
         const float distance = std::acos(std::min(nearest, 1.0f));
         constexpr float hole = 0.056f, softness = 0.006f;  // the ramp is a texel wide, so that the cut follows the circle
         Surface s;
@@ -133,12 +135,14 @@ Textures paintHammered() {
 /// Things shared by all spheres of the scene.
 struct Stand {
     Glb& glb;
-    int ball;       ///< geometry of the plain sphere
+    int ball;  ///< geometry of the plain sphere
     int ringMesh;
 
     void put(const std::string& name, int mesh, int column, bool back) const {
-        const float x = (float(column) - 4) * spacing + (back ? 0.0f : spacing * 0.1f), z = back ? backRow : frontRow, ground = back ? stepTop : platformTop;
-        glb.addNode(name, mesh, {.translation = {x, centreHeight(ground), z}, .rotation = turnY(float(column) * 37), .scale = glm::vec3(radius)});
+        const float x = (float(column) - 4) * spacing + (back ? 0.0f : spacing * 0.1f), z = back ? backRow : frontRow,
+                    ground = back ? stepTop : platformTop;
+        glb.addNode(name, mesh,
+                    {.translation = {x, centreHeight(ground), z}, .rotation = turnY(float(column) * 37), .scale = glm::vec3(radius)});
         glb.addNode(name + "_ring", ringMesh, {.translation = {x, ground, z}});
     }
     void put(const Material& material, int column, bool back) const {
@@ -154,13 +158,22 @@ void addSpheres(Glb& glb) {
     const Stand row{glb, glb.addGeometry(plain), glb.addMesh(stand)};
 
     // Back row, against the bright backdrop: glass at the ends, metals from mirror to matt between.
-    row.put({.name = "glass_rough", .roughness = 0.32f, .transmission = 1, .ior = 1.5f, .thickness = 2 * radius, .attenuation = {0.45f, 0.85f, 0.95f}, .attenuationDistance = 0.9f}, 0, true);
+    row.put({.name = "glass_rough",
+             .roughness = 0.32f,
+             .transmission = 1,
+             .ior = 1.5f,
+             .thickness = 2 * radius,
+             .attenuation = {0.45f, 0.85f, 0.95f},
+             .attenuationDistance = 0.9f},
+            0, true);
     const float goldRoughness[] = {0.03f, 0.20f, 0.40f, 0.70f}, copperRoughness[] = {0.08f, 0.28f, 0.55f};
     int column = 1;
     for (float roughness : goldRoughness)
-        row.put({.name = "gold_" + std::to_string(std::lround(roughness * 100)), .color = gold, .roughness = roughness, .metalness = 1}, column++, true);
+        row.put({.name = "gold_" + std::to_string(std::lround(roughness * 100)), .color = gold, .roughness = roughness, .metalness = 1},
+                column++, true);
     for (float roughness : copperRoughness)
-        row.put({.name = "copper_" + std::to_string(std::lround(roughness * 100)), .color = copper, .roughness = roughness, .metalness = 1}, column++, true);
+        row.put({.name = "copper_" + std::to_string(std::lround(roughness * 100)), .color = copper, .roughness = roughness, .metalness = 1},
+                column++, true);
     row.put({.name = "glass", .roughness = 0, .transmission = 1, .ior = 1.52f, .thickness = 2 * radius}, 8, true);
 
     // Front row: paints from lacquer to chalk, then what textures and vertices can do.
@@ -172,7 +185,8 @@ void addSpheres(Glb& glb) {
     const int hole = glb.addMaterial(glb.dressed({.name = "perforated", .mask = true, .doubleSided = true}, paintPerforation()));
     row.put("perforated", glb.addMesh("perforated", {{row.ball, hole}}), 4, false);
     const int bulb = glb.addMaterial({.name = "bulb", .emission = {24, 13, 5}});
-    glb.addNode("bulb", glb.addMesh("bulb", {{glb.addGeometry(sphere(24, 12)), bulb}}), {.translation = {spacing * 0.1f, centreHeight(platformTop), frontRow}, .scale = glm::vec3(0.11f)});
+    glb.addNode("bulb", glb.addMesh("bulb", {{glb.addGeometry(sphere(24, 12)), bulb}}),
+                {.translation = {spacing * 0.1f, centreHeight(platformTop), frontRow}, .scale = glm::vec3(0.11f)});
 
     row.put({.name = "paint_chalk", .color = {0.76f, 0.70f, 0.58f}, .roughness = 0.95f}, 5, false);
     const int ink = glb.addMaterial({.name = "vertex_inks", .roughness = 0.22f});
@@ -201,14 +215,16 @@ void writeMaterialSpheres(const std::filesystem::path& folder) {
 
     Model bench{"bench", {}};
     Mesh step = placed(roundedBox({10.6f, stepTop - platformTop, 1.4f}, 0.05f, 4), {0, (stepTop + platformTop) / 2, backRow});
-    scaleUv(step, 1.0f / (2.0f * panelSize));   // boards twice as wide: the set is larger than life
+    scaleUv(step, 1.0f / (2.0f * panelSize));  // boards twice as wide: the set is larger than life
     bench.add(glb.addMaterial(glb.dressed({.name = "walnut"}, paintPanel(walnut(), 5, 1024))), step);
     glb.addNode(bench);
 
     addSpheres(glb);
 
     const int tray = glb.addMaterial({.name = "tray", .color = glm::vec3(0.02f), .roughness = 0.8f});
-    const auto lamp = [&](const std::string& name, const glm::vec3& radiance) { return glb.addMaterial({.name = name, .color = glm::vec3(0), .emission = radiance}); };
+    const auto lamp = [&](const std::string& name, const glm::vec3& radiance) {
+        return glb.addMaterial({.name = name, .color = glm::vec3(0), .emission = radiance});
+    };
     const glm::vec3 centre(0, 0.8f, 0.3f);
     glb.addNode(softBox("key", {-6.5f, 6.2f, 5.5f}, centre, {3.4f, 2.6f}, lamp("key", {15, 13.6f, 11.6f}), tray));
     glb.addNode(softBox("fill", {9.0f, 4.2f, 5.0f}, centre, {2.2f, 4.4f}, lamp("fill", {2.3f, 2.9f, 3.8f}), tray));

@@ -16,8 +16,7 @@ namespace lodestir::generate {
 namespace {
 
 /// Bits of N floats as a map key; -0 and +0 are made one.
-template <size_t N>
-struct Bits {
+template <size_t N> struct Bits {
     std::array<uint32_t, N> words{};
     explicit Bits(const std::array<float, N>& values) {
         for (size_t i = 0; i < N; ++i) {
@@ -29,8 +28,7 @@ struct Bits {
 };
 
 struct BitsHash {
-    template <size_t N>
-    size_t operator()(const Bits<N>& bits) const {
+    template <size_t N> size_t operator()(const Bits<N>& bits) const {
         uint32_t h = uint32_t(N);
         for (uint32_t word : bits.words) h = hash(h, word);
         return h;
@@ -102,8 +100,7 @@ void computeNormals(Mesh& mesh, float creaseDegrees) {
         const glm::vec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
         const float area = glm::length(n);
         flat[t] = area > 0 ? n / area : glm::vec3(0);
-        for (int k = 0; k < 3; ++k)
-            around[positionKey(p[k])].push_back({t, cornerAngle(p[k], p[(k + 1) % 3], p[(k + 2) % 3])});
+        for (int k = 0; k < 3; ++k) around[positionKey(p[k])].push_back({t, cornerAngle(p[k], p[(k + 1) % 3], p[(k + 2) % 3])});
     }
 
     // One normal per corner; equal corners are welded again.

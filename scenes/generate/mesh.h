@@ -23,8 +23,8 @@ struct Vertex {
 struct Mesh {
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
-    bool hasTangents = false;   ///< set by computeTangents()
-    bool hasColors = false;     ///< set by whoever paints vertices
+    bool hasTangents = false;  ///< set by computeTangents()
+    bool hasColors = false;    ///< set by whoever paints vertices
 
     uint32_t add(const Vertex& vertex) {
         vertices.push_back(vertex);

@@ -10,9 +10,9 @@ namespace lodestir::generate {
 
 /// What lies around a point in cellular noise. Distances in lattice units.
 struct Cell {
-    float nearest = 0;   ///< distance to the nearest feature point
-    float second = 0;    ///< distance to the second nearest
-    uint32_t id = 0;     ///< hash of the nearest feature's lattice cell
+    float nearest = 0;  ///< distance to the nearest feature point
+    float second = 0;   ///< distance to the second nearest
+    uint32_t id = 0;    ///< hash of the nearest feature's lattice cell
 };
 
 /// Gradient noise (Perlin, "Improving Noise", 2002) keyed by a seed.

@@ -33,7 +33,8 @@ void writeNormal(uint8_t* texel, const glm::vec3& normal) {
 namespace {
 
 /// Turns surface points into pictures; `normalAt(x, y)` is asked only where heights vary.
-Textures develop(int width, int height, const std::vector<Surface>& points, bool smooth, const std::function<glm::vec3(int, int)>& normalAt) {
+Textures develop(int width, int height, const std::vector<Surface>& points, bool smooth,
+                 const std::function<glm::vec3(int, int)>& normalAt) {
     const auto differs = [&](auto member) {
         return std::any_of(points.begin(), points.end(), [&](const Surface& s) { return s.*member != points.front().*member; });
     };
@@ -89,7 +90,9 @@ Textures paintSphere(int width, int height, const std::function<Surface(const gl
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) points[size_t(y) * size_t(width) + size_t(x)] = surface(direction(x, y));
 
-    const auto heightAt = [&](int x, int y) { return points[size_t(std::clamp(y, 0, height - 1)) * size_t(width) + size_t((x + width) % width)].height; };
+    const auto heightAt = [&](int x, int y) {
+        return points[size_t(std::clamp(y, 0, height - 1)) * size_t(width) + size_t((x + width) % width)].height;
+    };
     const float step = 3.14159265f / float(height), turn = 2 * 3.14159265f / float(width);
     return develop(width, height, points, false, [&](int x, int y) {
         // Texels shrink towards the poles with the sine of the polar angle; the slope is that on the sphere itself.
@@ -106,7 +109,8 @@ std::vector<uint8_t> encodePng(const Picture& picture) {
         const auto* bytes = static_cast<const uint8_t*>(data);
         static_cast<std::vector<uint8_t>*>(context)->insert(static_cast<std::vector<uint8_t>*>(context)->end(), bytes, bytes + size);
     };
-    if (!stbi_write_png_to_func(append, &file, picture.width, picture.height, picture.channels, picture.bytes.data(), picture.width * picture.channels))
+    if (!stbi_write_png_to_func(append, &file, picture.width, picture.height, picture.channels, picture.bytes.data(),
+                                picture.width * picture.channels))
         throw std::runtime_error("a picture could not be encoded as PNG (out of memory)");
     return file;
 }

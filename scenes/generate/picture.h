@@ -23,11 +23,11 @@ struct Picture {
 
 /// What a surface is at one point.
 struct Surface {
-    glm::vec3 color{0.5f};   ///< linear reflectance, Rec.709
+    glm::vec3 color{0.5f};  ///< linear reflectance, Rec.709
     float alpha = 1;
     float roughness = 0.8f;  ///< perceptual, as in glTF
     float metalness = 0;
-    float height = 0;        ///< metres above the mesh; shapes the normals
+    float height = 0;  ///< metres above the mesh; shapes the normals
 };
 
 /// The pictures of one material. `normal` and `roughness` are empty when they would be flat.
@@ -40,9 +40,9 @@ struct Textures {
 /// How a painted picture lies on the mesh.
 struct Canvas {
     int width = 512, height = 512;
-    glm::vec2 metres{1};   ///< size of the picture on the surface
-    bool repeats = true;   ///< derivatives wrap around the border
-    bool smooth = false;   ///< no normal picture even if heights vary
+    glm::vec2 metres{1};  ///< size of the picture on the surface
+    bool repeats = true;  ///< derivatives wrap around the border
+    bool smooth = false;  ///< no normal picture even if heights vary
 };
 
 /// Evaluates `surface` at every texel centre; its argument is the point in metres, x to the right and y down.

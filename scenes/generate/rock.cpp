@@ -15,7 +15,7 @@ namespace lodestir::generate {
 
 namespace {
 
-constexpr int rockCells = 80;        ///< 12 * 80^2 = 76,800 triangles; halves evenly four times
+constexpr int rockCells = 80;  ///< 12 * 80^2 = 76,800 triangles; halves evenly four times
 constexpr int chartTexels = 512;
 
 /// Turned about the vertical, then tipped to stand square on a slope.
@@ -40,11 +40,12 @@ void addRocks(Glb& glb, const Terrain& terrain, int material, const Mesh& mesh) 
         float turn, scale, sunk;
     };
     const Kin kin[] = {{{2.55f, -1.25f}, 140, 0.42f, 0.18f}, {{-2.5f, 0.75f}, 215, 0.27f, 0.12f}, {{-5.2f, -7.5f}, 80, 0.75f, 0.3f},
-                       {{9.5f, -19}, 250, 1.5f, 0.4f},      {{-19, -34}, 20, 2.2f, 0.9f},         {{26, -52}, 160, 3.0f, 1.0f}};
+                       {{9.5f, -19}, 250, 1.5f, 0.4f},       {{-19, -34}, 20, 2.2f, 0.9f},        {{26, -52}, 160, 3.0f, 1.0f}};
     int number = 2;
     for (const Kin& k : kin) {
         const glm::vec3 place(k.xz.x, terrain.height(k.xz) + 0.92f * k.scale - k.sunk * k.scale, k.xz.y);
-        glb.addNode("rock_" + std::to_string(number++), rock, {.translation = place, .rotation = standing(terrain.normal(k.xz), k.turn), .scale = glm::vec3(k.scale)});
+        glb.addNode("rock_" + std::to_string(number++), rock,
+                    {.translation = place, .rotation = standing(terrain.normal(k.xz), k.turn), .scale = glm::vec3(k.scale)});
     }
 }
 
@@ -54,12 +55,17 @@ void addStones(Glb& glb, const Terrain& terrain, int material) {
         std::vector<int> meshes;
         for (int i = 0; i < count; ++i) {
             Random random(seed + uint32_t(i));
-            const StoneForm form{.size = {1, random.between(0.5f, 0.75f), random.between(0.7f, 0.95f)}, .facets = 14, .sharpness = random.between(5, 10), .relief = 0.8f};
-            meshes.push_back(glb.addMesh(name + "_" + std::to_string(i), {{glb.addGeometry(Stone(seed + uint32_t(i), form).mesh(cells)), material}}));
+            const StoneForm form{.size = {1, random.between(0.5f, 0.75f), random.between(0.7f, 0.95f)},
+                                 .facets = 14,
+                                 .sharpness = random.between(5, 10),
+                                 .relief = 0.8f};
+            meshes.push_back(
+                glb.addMesh(name + "_" + std::to_string(i), {{glb.addGeometry(Stone(seed + uint32_t(i), form).mesh(cells)), material}}));
         }
         return meshes;
     };
-    const auto scatter = [&](const std::string& name, const std::vector<int>& meshes, int count, float reach, float smallest, float largest, uint32_t seed) {
+    const auto scatter = [&](const std::string& name, const std::vector<int>& meshes, int count, float reach, float smallest, float largest,
+                             uint32_t seed) {
         Random random(seed);
         for (int placedCount = 0; placedCount < count;) {
             // Denser towards the rock: debris falls from it.
@@ -70,7 +76,9 @@ void addStones(Glb& glb, const Terrain& terrain, int material) {
             const int mesh = meshes[size_t(random.below(int(meshes.size())))];
             if (insideRock(xz, scale * 0.5f)) continue;
             glb.addNode(name + "_" + std::to_string(placedCount++), mesh,
-                        {.translation = {xz.x, terrain.height(xz) + scale * 0.22f, xz.y}, .rotation = standing(terrain.normal(xz), turn), .scale = glm::vec3(scale)});
+                        {.translation = {xz.x, terrain.height(xz) + scale * 0.22f, xz.y},
+                         .rotation = standing(terrain.normal(xz), turn),
+                         .scale = glm::vec3(scale)});
         }
     };
     scatter("stone", variants("stone", 3, 20, 300), 34, 11, 0.07f, 0.30f, 41);
@@ -82,19 +90,21 @@ void addPlants(Glb& glb, const Terrain& terrain) {
     const int blade = glb.addMaterial({.name = "grass", .roughness = 0.75f, .doubleSided = true});
     const auto grow = [&](const std::string& name, const std::vector<Mesh>& meshes) {
         std::vector<int> ids;
-        for (const Mesh& mesh : meshes) ids.push_back(glb.addMesh(name + "_mesh_" + std::to_string(ids.size()), {{glb.addGeometry(mesh), blade}}));
+        for (const Mesh& mesh : meshes)
+            ids.push_back(glb.addMesh(name + "_mesh_" + std::to_string(ids.size()), {{glb.addGeometry(mesh), blade}}));
         return ids;
     };
     struct Spread {
         int count;
-        float nearest, farthest, power;   ///< distances from the rock in metres; a power above 1/2 crowds the middle
+        float nearest, farthest, power;  ///< distances from the rock in metres; a power above 1/2 crowds the middle
         float smallest, largest;
         bool keepsToMeadow;
     };
     const auto scatter = [&](const std::string& name, const std::vector<int>& meshes, const Spread& spread, uint32_t seed) {
         Random random(seed);
         for (int number = 0; number < spread.count;) {
-            const float r = spread.nearest + (spread.farthest - spread.nearest) * std::pow(random.next(), spread.power), a = random.between(0, 6.2831853f);
+            const float r = spread.nearest + (spread.farthest - spread.nearest) * std::pow(random.next(), spread.power),
+                        a = random.between(0, 6.2831853f);
             const glm::vec2 xz(r * std::cos(a), r * std::sin(a));
             const float chance = random.next(), scale = random.between(spread.smallest, spread.largest), turn = random.between(0, 360);
             const int mesh = meshes[size_t(random.below(int(meshes.size())))];
@@ -102,7 +112,9 @@ void addPlants(Glb& glb, const Terrain& terrain) {
             const float skirt = insideRock(xz, 0.35f) ? 0.8f : 0.0f;
             if (insideRock(xz, -0.08f) || (spread.keepsToMeadow && chance > std::max(terrain.meadow(xz), skirt))) continue;
             glb.addNode(name + "_" + std::to_string(number++), mesh,
-                        {.translation = {xz.x, terrain.height(xz), xz.y}, .rotation = standing(terrain.normal(xz), turn), .scale = glm::vec3(scale)});
+                        {.translation = {xz.x, terrain.height(xz), xz.y},
+                         .rotation = standing(terrain.normal(xz), turn),
+                         .scale = glm::vec3(scale)});
         }
     };
     const std::vector<int> tufts = grow("tuft", {grassTuft(600, {64, 0.20f, 0.08f, 0.75f}), grassTuft(601, {80, 0.30f, 0.09f, 0.85f}),

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -20,6 +21,8 @@ namespace lodestir::generate {
 
 namespace {
 
+constexpr float doorSill = 0.06f;  ///< metres above the floor
+
 /// A flat part with UVs in metres over `repeat`.
 Mesh sheet(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& down, float repeat) {
     Mesh mesh = rectangle(corner, right, down);
@@ -27,24 +30,29 @@ Mesh sheet(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& dow
     return mesh;
 }
 
-/// The window wall as a three by three lattice without its middle: all pieces share corners, so no ray slips through a joint.
-Mesh windowWall(const Room& room) {
-    const std::array<float, 4> z{room.front, room.windowFront, room.windowBack, room.back};
-    const std::array<float, 4> y{room.height, room.lintel, room.sill, 0};
+/// A rectangle with an opening from `low` to `high` (shares of right and down) and its four reveals, `outward` deep. The wall is a three by three
+/// lattice without its middle: all pieces share corners, so no ray slips through a joint.
+Mesh piercedWall(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& down, const glm::vec2& low, const glm::vec2& high,
+                 const glm::vec3& outward) {
+    const auto at = [&](float s, float t) { return corner + right * s + down * t; };
+    const std::array<float, 4> s{0, low.x, high.x, 1}, t{0, low.y, high.y, 1};
+    const glm::vec2 metres(glm::length(right), glm::length(down));
     Mesh mesh;
     for (size_t j = 0; j < 3; ++j)
         for (size_t i = 0; i < 3; ++i) {
             if (i == 1 && j == 1) continue;
-            Mesh piece = rectangle({-room.halfWidth, y[j], z[i]}, {0, 0, z[i + 1] - z[i]}, {0, y[j + 1] - y[j], 0});
-            for (Vertex& v : piece.vertices) v.uv = glm::vec2(v.position.z, -v.position.y) / plasterSize;
+            Mesh piece;
+            for (const auto& [a, b] : {std::pair{i, j}, std::pair{i, j + 1}, std::pair{i + 1, j + 1}, std::pair{i + 1, j}})
+                piece.add({.position = at(s[a], t[b]), .uv = glm::vec2(s[a], t[b]) * metres / plasterSize});
+            piece.quad(0, 1, 2, 3);
             append(mesh, piece);
         }
-    // The four reveals.
-    const float x0 = -room.halfWidth, out = -room.wallThickness, zb = room.windowBack, zf = room.windowFront;
-    append(mesh, sheet({x0 + out, room.lintel, zf}, {-out, 0, 0}, {0, room.sill - room.lintel, 0}, plasterSize));
-    append(mesh, sheet({x0, room.lintel, zb}, {out, 0, 0}, {0, room.sill - room.lintel, 0}, plasterSize));
-    append(mesh, sheet({x0 + out, room.lintel, zb}, {-out, 0, 0}, {0, 0, zf - zb}, plasterSize));
-    append(mesh, sheet({x0 + out, room.sill, zf}, {-out, 0, 0}, {0, 0, zb - zf}, plasterSize));
+    computeNormals(mesh, 10);
+    const glm::vec3 across = right * (high.x - low.x), fall = down * (high.y - low.y);
+    append(mesh, sheet(at(low.x, low.y), outward, fall, plasterSize));
+    append(mesh, sheet(at(high.x, low.y) + outward, -outward, fall, plasterSize));
+    append(mesh, sheet(at(low.x, low.y) + outward, -outward, across, plasterSize));
+    append(mesh, sheet(at(low.x, high.y), outward, across, plasterSize));
     return mesh;
 }
 
@@ -61,7 +69,9 @@ Model window(const Palette& palette, const Room& room) {
     const float x = -room.halfWidth - room.wallThickness * 0.62f;
     const float height = room.lintel - room.sill, width = room.windowFront - room.windowBack;
     const float y0 = room.sill, zMiddle = (room.windowFront + room.windowBack) / 2;
-    const auto bar = [&](const glm::vec3& size, const glm::vec3& centre) { window.add(palette.trim, placed(roundedBox(size, 0.006f, 2), centre)); };
+    const auto bar = [&](const glm::vec3& size, const glm::vec3& centre) {
+        window.add(palette.trim, placed(roundedBox(size, 0.006f, 2), centre));
+    };
 
     constexpr float frame = 0.055f;
     for (float side : {-1.0f, 1.0f}) {
@@ -80,19 +90,43 @@ Model window(const Palette& palette, const Room& room) {
         }
         bar({0.026f, 0.024f, cell - 0.08f}, {x + 0.012f, y0 + height * 0.68f, z});
         if (i == 1) {
-            const Station handle[] = {{{x + 0.045f, y0 + height * 0.46f, z - cell / 2 + 0.04f}, 0.007f}, {{x + 0.075f, y0 + height * 0.46f, z - cell / 2 + 0.04f}, 0.007f},
-                                      {{x + 0.078f, y0 + height * 0.455f, z - cell / 2 + 0.04f}, 0.007f}, {{x + 0.076f, y0 + height * 0.46f - 0.1f, z - cell / 2 + 0.04f}, 0.006f}};
+            const Station handle[] = {{{x + 0.045f, y0 + height * 0.46f, z - cell / 2 + 0.04f}, 0.007f},
+                                      {{x + 0.075f, y0 + height * 0.46f, z - cell / 2 + 0.04f}, 0.007f},
+                                      {{x + 0.078f, y0 + height * 0.455f, z - cell / 2 + 0.04f}, 0.007f},
+                                      {{x + 0.076f, y0 + height * 0.46f - 0.1f, z - cell / 2 + 0.04f}, 0.006f}};
             window.add(palette.brass, tube(handle, 12));
         }
     }
 
     // Inside: a deep sill board and a casing that covers the edge of the plaster.
     const float inner = -room.halfWidth, sillDepth = room.wallThickness * 0.55f + 0.06f;
-    window.add(palette.trim, placed(roundedBox({sillDepth, 0.034f, width + 0.16f}, 0.010f, 3), {inner + 0.06f - sillDepth / 2, y0 + 0.005f, zMiddle}));
+    window.add(palette.trim,
+               placed(roundedBox({sillDepth, 0.034f, width + 0.16f}, 0.010f, 3), {inner + 0.06f - sillDepth / 2, y0 + 0.005f, zMiddle}));
     for (float side : {-1.0f, 1.0f})
-        window.add(palette.trim, placed(roundedBox({0.022f, height + 0.07f, 0.075f}, 0.006f, 2), {inner + 0.011f, y0 + (height + 0.07f) / 2, zMiddle + side * (width / 2 + 0.034f)}));
-    window.add(palette.trim, placed(roundedBox({0.024f, 0.085f, width + 0.19f}, 0.006f, 2), {inner + 0.012f, room.lintel + 0.040f, zMiddle}));
+        window.add(palette.trim, placed(roundedBox({0.022f, height + 0.07f, 0.075f}, 0.006f, 2),
+                                        {inner + 0.011f, y0 + (height + 0.07f) / 2, zMiddle + side * (width / 2 + 0.034f)}));
+    window.add(palette.trim,
+               placed(roundedBox({0.024f, 0.085f, width + 0.19f}, 0.006f, 2), {inner + 0.012f, room.lintel + 0.040f, zMiddle}));
     return window;
+}
+
+/// Two glazed leaves in the front wall, behind the usual camera: they fill the room with sky.
+Model gardenDoor(const Palette& palette, const Room& room) {
+    Model door{"garden_door", {}};
+    const float z = room.front + room.wallThickness * 0.5f, width = room.doorRight - room.doorLeft, height = room.doorHead - doorSill;
+    const float xMiddle = (room.doorLeft + room.doorRight) / 2, yMiddle = (room.doorHead + doorSill) / 2;
+    const auto bar = [&](const glm::vec2& size, const glm::vec2& centre) {
+        door.add(palette.trim, placed(roundedBox({size.x, size.y, 0.06f}, 0.006f, 2), {centre.x, centre.y, z}));
+    };
+    for (float side : {-1.0f, 1.0f}) {
+        bar({0.06f, height}, {xMiddle + side * (width - 0.06f) / 2, yMiddle});
+        bar({width, 0.06f}, {xMiddle, yMiddle + side * (height - 0.06f) / 2});
+        const float leaf = xMiddle + side * width / 4;
+        for (float edge : {-1.0f, 1.0f}) bar({0.08f, height - 0.1f}, {leaf + edge * (width / 4 - 0.06f), yMiddle});
+        for (float rail : {0.06f, 0.36f, 0.66f, 0.95f})
+            bar({width / 2 - 0.1f, rail < 0.1f ? 0.16f : 0.045f}, {leaf, doorSill + rail * height});
+    }
+    return door;
 }
 
 Model curtains(const Palette& palette, const Room& room) {
@@ -106,10 +140,12 @@ Model curtains(const Palette& palette, const Room& room) {
         const glm::mat4 turn = glm::rotate(glm::translate(glm::mat4(1), glm::vec3(x, y, z)), glm::radians(90.0f), glm::vec3(0, 1, 0));
         model.add(palette.linen, placed(cloth, turn));
     }
-    const Station pole[] = {{{x, y + 0.02f, ends[0] - 0.36f}, 0.012f}, {{x, y + 0.02f, 0}, 0.012f}, {{x, y + 0.02f, ends[1] + 0.36f}, 0.012f}};
+    const Station pole[] = {
+        {{x, y + 0.02f, ends[0] - 0.36f}, 0.012f}, {{x, y + 0.02f, 0}, 0.012f}, {{x, y + 0.02f, ends[1] + 0.36f}, 0.012f}};
     model.add(palette.brass, tube(pole, 16));
     for (float z : {ends[0] - 0.37f, ends[1] + 0.37f})
-        model.add(palette.brass, placed(sphere(24, 14), glm::scale(glm::translate(glm::mat4(1), glm::vec3(x, y + 0.02f, z)), glm::vec3(0.024f))));
+        model.add(palette.brass,
+                  placed(sphere(24, 14), glm::scale(glm::translate(glm::mat4(1), glm::vec3(x, y + 0.02f, z)), glm::vec3(0.024f))));
     return model;
 }
 
@@ -129,10 +165,13 @@ void addRoom(Glb& glb, const Palette& palette, const Room& room) {
     glb.addNode(floor);
 
     Model walls{"walls", {}};
-    walls.add(palette.wall, windowWall(room));
+    const float depth = f - b, thick = room.wallThickness;
+    walls.add(palette.wall, piercedWall({-w, h, f}, {0, 0, -depth}, {0, -h, 0}, {(f - room.windowFront) / depth, (h - room.lintel) / h},
+                                        {(f - room.windowBack) / depth, (h - room.sill) / h}, {-thick, 0, 0}));
+    walls.add(palette.wall, piercedWall({w, h, f}, {-2 * w, 0, 0}, {0, -h, 0}, {(w - room.doorRight) / (2 * w), (h - room.doorHead) / h},
+                                        {(w - room.doorLeft) / (2 * w), (h - doorSill) / h}, {0, 0, thick}));
     walls.add(palette.accent, sheet({-w, h, b}, {2 * w, 0, 0}, {0, -h, 0}, plasterSize));
     walls.add(palette.wall, sheet({w, h, b}, {0, 0, f - b}, {0, -h, 0}, plasterSize));
-    walls.add(palette.wall, sheet({w, h, f}, {-2 * w, 0, 0}, {0, -h, 0}, plasterSize));
     walls.add(palette.ceiling, sheet({-w, h, f}, {2 * w, 0, 0}, {0, 0, b - f}, plasterSize));
     glb.addNode(walls);
 
@@ -140,13 +179,15 @@ void addRoom(Glb& glb, const Palette& palette, const Room& room) {
     struct Run {
         glm::vec2 from, to;
     };
-    for (const Run& run : {Run{{-w, b}, {w, b}}, Run{{-w, f}, {w, f}}, Run{{-w, b}, {-w, f}}, Run{{w, b}, {w, f}}}) {
+    for (const Run& run : {Run{{-w, b}, {w, b}}, Run{{-w, f}, {room.doorLeft - 0.02f, f}}, Run{{room.doorRight + 0.02f, f}, {w, f}},
+                           Run{{-w, b}, {-w, f}}, Run{{w, b}, {w, f}}}) {
         // Half of each board is in the wall.
         addRun(mouldings, palette.trim, {run.from.x, 0.055f, run.from.y}, {run.to.x, 0.055f, run.to.y}, 0.11f, 0.036f, 0.007f);
         addRun(mouldings, palette.trim, {run.from.x, h - 0.02f, run.from.y}, {run.to.x, h - 0.02f, run.to.y}, 0.07f, 0.10f, 0.02f);
     }
     glb.addNode(mouldings);
     glb.addNode(window(palette, room));
+    glb.addNode(gardenDoor(palette, room));
     glb.addNode(curtains(palette, room));
 }
 
@@ -171,12 +212,16 @@ void addGarden(Glb& glb, const Palette& palette, const Room& room) {
     for (int i = 0; i < 9; ++i) {
         const float z = -16 + 2.1f * float(i) + random.between(-0.8f, 0.8f);
         glb.addNode("bush_" + std::to_string(i), hedge,
-                    {.translation = {edge - random.between(9, 15), -0.8f, z}, .rotation = turnY(random.between(0, 360)), .scale = glm::vec3(random.between(4, 6))});
+                    {.translation = {edge - random.between(9, 15), -0.8f, z},
+                     .rotation = turnY(random.between(0, 360)),
+                     .scale = glm::vec3(random.between(4, 6))});
     }
     for (int i = 0; i < 22; ++i) {
         const float z = -17 + 1.05f * float(i) + random.between(-0.2f, 0.2f);
         glb.addNode("hedge_" + std::to_string(i), hedge,
-                    {.translation = {edge - 5.6f + random.between(-0.4f, 0.4f), -0.55f, z}, .rotation = turnY(random.between(0, 360)), .scale = glm::vec3(random.between(1.9f, 2.6f))});
+                    {.translation = {edge - 5.6f + random.between(-0.4f, 0.4f), -0.55f, z},
+                     .rotation = turnY(random.between(0, 360)),
+                     .scale = glm::vec3(random.between(1.9f, 2.6f))});
     }
 }
 

@@ -73,7 +73,7 @@ Mesh roundedBox(const glm::vec3& size, float radius, int segments, Axis grain, i
         const float halfRight = glm::dot(glm::abs(face.right), half), halfUp = glm::dot(glm::abs(face.up), half);
         const bool turn = std::abs(face.up[int(grain)]) > 0.5f;
 
-        // Lattice lines bunch in the rounded rims; each face carries its half of the rounding. The tangent warp spaces them evenly on the arc.
+        // Lattice lines bunch in the rounded rims, of which each face carries its half. The tangent spaces them evenly on the arc.
         const int last = 2 * segments + divisions;
         const auto line = [&](int i, float extent) {
             if (i > segments && i < last - segments) return (extent - radius) * (2 * float(i - segments) / float(divisions) - 1);
@@ -84,7 +84,8 @@ Mesh roundedBox(const glm::vec3& size, float radius, int segments, Axis grain, i
         const auto base = uint32_t(mesh.vertices.size());
         for (int y = 0; y <= last; ++y)
             for (int x = 0; x <= last; ++x) {
-                const glm::vec3 cube = face.right * line(x, halfRight) - face.up * line(y, halfUp) + normal * glm::dot(glm::abs(normal), half);
+                const glm::vec3 cube =
+                    face.right * line(x, halfRight) - face.up * line(y, halfUp) + normal * glm::dot(glm::abs(normal), half);
                 const glm::vec3 inner = glm::clamp(cube, -core, core);
                 const glm::vec3 out = glm::normalize(cube - inner);
                 const glm::vec3 p = inner + out * radius;
@@ -112,7 +113,9 @@ Mesh sphere(int columns, int rows) {
         for (int x = 0; x <= columns; ++x) {
             const glm::vec2 uv(float(x) / float(columns), float(y) / float(rows));
             // The seam and the poles are exact, so that the surface is closed bit for bit.
-            const glm::vec3 d = y == 0 ? glm::vec3(0, 1, 0) : y == rows ? glm::vec3(0, -1, 0) : sphereDirection({x == columns ? 0 : uv.x, uv.y});
+            const glm::vec3 d = y == 0      ? glm::vec3(0, 1, 0)
+                                : y == rows ? glm::vec3(0, -1, 0)
+                                            : sphereDirection({x == columns ? 0 : uv.x, uv.y});
             mesh.add({.position = d, .normal = d, .uv = uv});
         }
     const auto stride = uint32_t(columns + 1);
@@ -178,7 +181,8 @@ std::vector<glm::vec2> smoothCurve(std::span<const glm::vec2> points, int steps)
         for (int k = 0; k < steps; ++k) {
             const float t = float(k) / float(steps);
             const glm::vec2 a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-            const glm::vec2 p = 0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t + (3.0f * b - a - 3.0f * c + d) * t * t * t);
+            const glm::vec2 p =
+                0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t + (3.0f * b - a - 3.0f * c + d) * t * t * t);
             curve.push_back({std::max(p.x, 0.0f), p.y});
         }
     curve.push_back(points.back());

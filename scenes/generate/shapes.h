@@ -20,8 +20,8 @@ Mesh rectangle(const glm::vec3& corner, const glm::vec3& right, const glm::vec3&
 
 enum class Axis { x, y, z };
 
-/// A box centred on the origin whose edges are rounded by `radius` with `segments` steps; flats are cut into `divisions` where the box is to
-/// be bent. UVs in metres, face by face, u along `grain`.
+/// A box centred on the origin whose edges are rounded by `radius` with `segments` steps; flats are cut into `divisions` where the box is
+/// to be bent. UVs in metres, face by face, u along `grain`.
 Mesh roundedBox(const glm::vec3& size, float radius, int segments = 2, Axis grain = Axis::x, int divisions = 1);
 
 /// A box with sharp edges, for parts whose edges are never seen. UVs in metres.
@@ -33,7 +33,8 @@ Mesh sphere(int columns, int rows);
 /// Direction of a point of sphere() from its UV.
 glm::vec3 sphereDirection(const glm::vec2& uv);
 
-/// Turns a profile of (radius, height) around +y. The profile runs down the outer side; u goes around, v along the profile by length, both [0,1].
+/// Turns a profile of (radius, height) around +y. The profile runs down the outer side; u goes around, v along the profile by length, both
+/// [0,1].
 Mesh turned(std::span<const glm::vec2> profile, int columns, float creaseDegrees = 40);
 
 /// Point and radius along a swept tube.

@@ -20,8 +20,12 @@ struct Face {
     glm::vec3 right, up;
     glm::vec3 out() const { return glm::cross(right, up); }
 };
-constexpr std::array<Face, 6> faces{{{{1, 0, 0}, {0, 1, 0}}, {{0, 0, -1}, {0, 1, 0}}, {{-1, 0, 0}, {0, 1, 0}},
-                                     {{0, 0, 1}, {0, 1, 0}}, {{1, 0, 0}, {0, 0, -1}}, {{1, 0, 0}, {0, 0, 1}}}};
+constexpr std::array<Face, 6> faces{{{{1, 0, 0}, {0, 1, 0}},
+                                     {{0, 0, -1}, {0, 1, 0}},
+                                     {{-1, 0, 0}, {0, 1, 0}},
+                                     {{0, 0, 1}, {0, 1, 0}},
+                                     {{1, 0, 0}, {0, 0, -1}},
+                                     {{1, 0, 0}, {0, 0, 1}}}};
 
 /// Evens out the solid angle of cube cells; exactly odd, and exactly 1 at 1, so that neighbouring faces meet bit for bit.
 float warp(float x) {
@@ -46,7 +50,8 @@ Stone::Stone(uint32_t seed, const StoneForm& stoneForm) : form(stoneForm), noise
         // Spread by a Fibonacci lattice, then shaken: no two planes nearly alike, no large gap.
         const float y = 1 - (2 * float(i) + 1) / float(form.facets), r = std::sqrt(1 - y * y), phi = float(i) * 2.39996323f;
         const glm::vec3 shake(random.bell(), random.bell(), random.bell());
-        planes.emplace_back(glm::normalize(glm::vec3(r * std::cos(phi), y, r * std::sin(phi)) + 0.22f * shake), random.between(0.74f, 1.0f));
+        planes.emplace_back(glm::normalize(glm::vec3(r * std::cos(phi), y, r * std::sin(phi)) + 0.22f * shake),
+                            random.between(0.74f, 1.0f));
     }
 }
 
@@ -91,7 +96,9 @@ Mesh Stone::mesh(int n) const {
             for (uint32_t x = 0; x < uint32_t(n); ++x) {
                 const uint32_t a = base + y * stride + x, b = a + stride, c = b + 1, d = a + 1;
                 // The shorter diagonal keeps ridges from being cut across.
-                const auto length = [&](uint32_t i, uint32_t j) { return glm::distance(mesh.vertices[i].position, mesh.vertices[j].position); };
+                const auto length = [&](uint32_t i, uint32_t j) {
+                    return glm::distance(mesh.vertices[i].position, mesh.vertices[j].position);
+                };
                 if (length(a, c) < length(b, d))
                     mesh.quad(a, b, c, d);
                 else
@@ -111,7 +118,7 @@ Surface Stone::weathered(const StonePoint& point, const glm::vec3& normal) const
 
     Surface s;
     s.color = glm::mix(glm::vec3(0.36f, 0.295f, 0.225f), glm::vec3(0.20f, 0.172f, 0.15f), glm::smoothstep(-0.45f, 0.45f, bands));
-    s.color = glm::mix(s.color, glm::vec3(0.40f, 0.215f, 0.09f), 0.6f * glm::smoothstep(0.12f, 0.5f, blotch));   // iron stains
+    s.color = glm::mix(s.color, glm::vec3(0.40f, 0.215f, 0.09f), 0.6f * glm::smoothstep(0.12f, 0.5f, blotch));  // iron stains
     s.color *= 1 + 0.22f * speckle + 0.30f * point.fine;
     s.color *= 1 - 0.62f * point.crack;
     s.roughness = 0.84f + 0.08f * speckle - 0.10f * glm::smoothstep(0.2f, 0.6f, blotch);
@@ -129,8 +136,8 @@ Surface Stone::weathered(const StonePoint& point, const glm::vec3& normal) const
     s.color = glm::mix(s.color, glm::vec3(0.47f, 0.48f, 0.37f) * (1 + 0.3f * speckle), 0.8f * pale);
     s.color = glm::mix(s.color, glm::vec3(0.56f, 0.27f, 0.035f) * (1 + 0.3f * speckle), 0.85f * orange);
 
-    const float damp = noise.fractal(p * 2.3f + 51.0f, 5, 0.6f) + 0.75f * glm::smoothstep(0.35f, 0.95f, normal.y) + 0.35f * point.crack
-                       - 0.55f * glm::smoothstep(-0.9f, 0.9f, p.y / form.size.y);
+    const float damp = noise.fractal(p * 2.3f + 51.0f, 5, 0.6f) + 0.75f * glm::smoothstep(0.35f, 0.95f, normal.y) + 0.35f * point.crack -
+                       0.55f * glm::smoothstep(-0.9f, 0.9f, p.y / form.size.y);
     const float moss = glm::smoothstep(0.42f, 0.62f, damp);
     s.color = glm::mix(s.color, glm::vec3(0.070f, 0.088f, 0.018f) * (1 + 0.9f * noise.at(p * 40.0f) + 0.4f * speckle), 0.9f * moss);
     s.roughness = glm::mix(s.roughness, 0.97f, std::max({pale, orange, moss}));
@@ -158,7 +165,8 @@ Textures Stone::bake(const Mesh& mesh, int chartTexels) const {
         const glm::vec2 e = t[1] - t[0], f = t[2] - t[0];
         const float area = e.x * f.y - e.y * f.x;
         if (area == 0) continue;
-        const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(t[0], glm::min(t[1], t[2])))), high = glm::ivec2(glm::ceil(glm::max(t[0], glm::max(t[1], t[2]))));
+        const glm::ivec2 low = glm::ivec2(glm::floor(glm::min(t[0], glm::min(t[1], t[2])))),
+                         high = glm::ivec2(glm::ceil(glm::max(t[0], glm::max(t[1], t[2]))));
         for (int y = std::max(low.y, 0); y <= std::min(high.y, size.y - 1); ++y)
             for (int x = std::max(low.x, 0); x <= std::min(high.x, size.x - 1); ++x) {
                 const glm::vec2 g = glm::vec2(x, y) - t[0];
@@ -191,7 +199,8 @@ Textures Stone::bake(const Mesh& mesh, int chartTexels) const {
                 const Frame& frame = frames[size_t(inside.y) * size_t(size.x) + size_t(inside.x)];
                 const Frame& own = frames[size_t(texel.y) * size_t(size.x) + size_t(texel.x)];
                 const Frame& used = own.normal == glm::vec3(0) ? frame : own;
-                const glm::vec3 n = glm::normalize(used.normal), t = glm::normalize(glm::vec3(used.tangent) - n * glm::dot(n, glm::vec3(used.tangent)));
+                const glm::vec3 n = glm::normalize(used.normal),
+                                t = glm::normalize(glm::vec3(used.tangent) - n * glm::dot(n, glm::vec3(used.tangent)));
                 const glm::vec3 b = glm::cross(n, t) * (used.tangent.w < 0 ? -1.0f : 1.0f);
                 const glm::vec3 bump(glm::dot(normal, t), glm::dot(normal, b), std::max(glm::dot(normal, n), 0.15f));
                 writeNormal(textures.normal.at(texel.x, texel.y), glm::normalize(bump));

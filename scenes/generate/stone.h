@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Broken rock: a faceted block displaced by domain-warped ridges, cracks and strata, its mesh as a cube-sphere in six charts, its pictures baked from the same noise.
+// Broken rock: a faceted block displaced by domain-warped ridges, cracks and strata; its mesh is a cube-sphere in six charts, its pictures
+// are baked from the same noise.
 #pragma once
 
 #include <array>
@@ -16,18 +17,18 @@ namespace lodestir::generate {
 
 /// Proportions of a stone.
 struct StoneForm {
-    glm::vec3 size{1};       ///< half extents, metres
-    int facets = 18;         ///< fracture planes of the block
-    float sharpness = 16;    ///< of the edges between them; 4 is a cobble
-    float relief = 1;        ///< strength of ridges, cracks and strata
+    glm::vec3 size{1};     ///< half extents, metres
+    int facets = 18;       ///< fracture planes of the block
+    float sharpness = 16;  ///< of the edges between them; 4 is a cobble
+    float relief = 1;      ///< strength of ridges, cracks and strata
 };
 
 /// A point of the stone and what the noise had to say about it.
 struct StonePoint {
     glm::vec3 position;
-    float crack = 0;    ///< 0 on the open face, 1 deep in a crack
-    float layer = 0;    ///< coordinate across the strata, one per bed
-    float fine = 0;     ///< fine relief, about [-1, 1]
+    float crack = 0;  ///< 0 on the open face, 1 deep in a crack
+    float layer = 0;  ///< coordinate across the strata, one per bed
+    float fine = 0;   ///< fine relief, about [-1, 1]
 };
 
 class Stone {
@@ -48,8 +49,8 @@ private:
 
     StoneForm form;
     Noise noise;
-    glm::vec3 bedding;                                    ///< unit vector across the strata
-    std::vector<std::pair<glm::vec3, float>> planes;      ///< fracture planes: normal and distance
+    glm::vec3 bedding;                                ///< unit vector across the strata
+    std::vector<std::pair<glm::vec3, float>> planes;  ///< fracture planes: normal and distance
 };
 
 }  // namespace lodestir::generate

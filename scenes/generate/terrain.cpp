@@ -25,7 +25,8 @@ float Terrain::height(const glm::vec2& xz) const {
 
 glm::vec3 Terrain::normal(const glm::vec2& xz) const {
     constexpr float e = 0.05f;
-    return glm::normalize(glm::vec3(height(xz - glm::vec2(e, 0)) - height(xz + glm::vec2(e, 0)), 2 * e, height(xz - glm::vec2(0, e)) - height(xz + glm::vec2(0, e))));
+    return glm::normalize(glm::vec3(height(xz - glm::vec2(e, 0)) - height(xz + glm::vec2(e, 0)), 2 * e,
+                                    height(xz - glm::vec2(0, e)) - height(xz + glm::vec2(0, e))));
 }
 
 float Terrain::meadow(const glm::vec2& xz) const {
@@ -50,7 +51,8 @@ Mesh Terrain::mesh(int n) const {
         // Near by the picture speaks; far off it only modulates a tint of meadow, heath and bare slopes.
         const glm::vec3 soil(0.88f, 0.82f, 0.76f), green(0.72f, 0.86f, 0.46f);
         const glm::vec3 bracken(0.80f, 0.74f, 0.50f), moor(0.40f, 0.56f, 0.33f), heather(0.42f, 0.36f, 0.40f);
-        const glm::vec3 heath = glm::mix(glm::mix(bracken, moor, glm::smoothstep(-0.30f, 0.12f, patch)), heather, glm::smoothstep(0.10f, 0.42f, patch));
+        const glm::vec3 heath =
+            glm::mix(glm::mix(bracken, moor, glm::smoothstep(-0.30f, 0.12f, patch)), heather, glm::smoothstep(0.10f, 0.42f, patch));
         v.color = glm::mix(glm::mix(soil, green, 0.8f * grass), heath, glm::smoothstep(7.0f, 35.0f, r));
         v.color *= 1 - 0.35f * (1 - glm::smoothstep(0.7f, 0.95f, v.normal.y));
     }
@@ -97,7 +99,8 @@ Textures paintGround(uint32_t seed, int width) {
         const float wide = broad.fractal(glm::vec3(q * 4.0f, 0.5f), 5, 0.55f);
         const float crumb = crumbs.fractal(glm::vec3(q * 48.0f, 0.5f), 3, 0.6f);
         Surface s;
-        s.color = glm::mix(glm::vec3(0.155f, 0.105f, 0.064f), glm::vec3(0.235f, 0.18f, 0.115f), glm::smoothstep(-0.4f, 0.5f, wide + 0.4f * crumb));
+        s.color = glm::mix(glm::vec3(0.155f, 0.105f, 0.064f), glm::vec3(0.235f, 0.18f, 0.115f),
+                           glm::smoothstep(-0.4f, 0.5f, wide + 0.4f * crumb));
         s.color *= 1 + 0.25f * crumb;
         s.roughness = 0.95f;
         s.height = 0.006f * wide + 0.0045f * crumb;
@@ -107,7 +110,8 @@ Textures paintGround(uint32_t seed, int width) {
         const float size = 0.18f + 0.30f * unit(hash(cell.id, 1));
         if (unit(hash(cell.id, 2)) < 0.24f && cell.nearest < size) {
             const float dome = std::sqrt(1 - (cell.nearest / size) * (cell.nearest / size));
-            s.color = glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.38f, 0.34f, 0.29f), unit(hash(cell.id, 3))) * (0.75f + 0.25f * dome);
+            s.color =
+                glm::mix(glm::vec3(0.20f, 0.18f, 0.16f), glm::vec3(0.38f, 0.34f, 0.29f), unit(hash(cell.id, 3))) * (0.75f + 0.25f * dome);
             s.roughness = 0.8f;
             s.height += 0.010f * size * dome;
         }

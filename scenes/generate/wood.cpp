@@ -77,7 +77,7 @@ Textures paintHerringbone(const Wood& wood, uint32_t seed, int width) {
         const bool lying = step < length;
         const glm::ivec2 first = lying ? glm::ivec2(cell.x - step, cell.y) : glm::ivec2(cell.x, cell.y - (period - 1 - step));
         const glm::vec2 inside = p - glm::vec2(first) * block;
-        const glm::vec2 q = lying ? inside : glm::vec2(inside.y, inside.x);   // x along the block
+        const glm::vec2 q = lying ? inside : glm::vec2(inside.y, inside.x);  // x along the block
 
         const glm::ivec2 home = (first % cells + cells) % cells;
         Surface s = boardAt(wood, {q.x, q.y - block / 2}, hash(seed, uint32_t(home.x), uint32_t(home.y)));

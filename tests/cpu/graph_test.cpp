@@ -61,7 +61,8 @@ TEST(Graph, AddsTheSceneWhereNobodyMakesAWorld) {
     const Graph lod = workshop.build(R"("r": {"type": "render"}, "lod": {"type": "lod_select"})", "r.color");
     EXPECT_EQ(inputOf(lod, "lod", "scene"), "scene.world");
     EXPECT_EQ(inputOf(lod, "r", "world"), "lod.world");  // though it stands further down
-    const Graph named = workshop.build(R"("lod": {"type": "lod_select", "in": {"scene": "scene.world"}}, "r": {"type": "render"})", "r.color");
+    const Graph named =
+        workshop.build(R"("lod": {"type": "lod_select", "in": {"scene": "scene.world"}}, "r": {"type": "render"})", "r.color");
     EXPECT_EQ(inputOf(named, "lod", "scene"), "scene.world");
     const Graph explicitly = workshop.build(R"("s": {"type": "scene"}, "r": {"type": "render"})", "r.color");
     EXPECT_EQ(explicitly.nodes.size(), 2u);
@@ -101,11 +102,13 @@ TEST(Graph, SetsParametersLater) {
     EXPECT_FALSE(setParameter(g, "r.gain", Json(0.25)));
     EXPECT_TRUE(setParameter(g, "lod.mode", Json("schedule")));
     EXPECT_EQ(static_cast<fake::LodSelect&>(*g.nodes[std::size_t(g.find("lod"))].pass).mode, fake::LodSelect::Mode::schedule);
-    EXPECT_EQ(complaint([&] { setParameter(g, "r.gian", Json(1)); }), "pass \"r\": no parameter \"gian\" on render; did you mean \"gain\"?");
+    EXPECT_EQ(complaint([&] { setParameter(g, "r.gian", Json(1)); }),
+              "pass \"r\": no parameter \"gian\" on render; did you mean \"gain\"?");
     EXPECT_EQ(complaint([&] { setParameter(g, "q.gain", Json(1)); }), "no pass \"q\"; known: scene, lod, r");
     EXPECT_EQ(complaint([&] { setParameter(g, "r.gain", Json(11)); }),
               "pass \"r\": \"gain\" must be 0..10, not 11; float 0..10, default 0.1: multiplies the radiance");
-    EXPECT_EQ(complaint([&] { setParameter(g, "lod.mode", Json("shedule")); }), "pass \"lod\": \"mode\" can't be \"shedule\"; did you mean \"schedule\"?");
+    EXPECT_EQ(complaint([&] { setParameter(g, "lod.mode", Json("shedule")); }),
+              "pass \"lod\": \"mode\" can't be \"shedule\"; did you mean \"schedule\"?");
     EXPECT_EQ(valueOf(g, "r", "gain"), "0.25");
 }
 

@@ -46,7 +46,8 @@ TEST(NewPass, BuildsByHandAndIsFoundOutsideTheTree) {
 
     const Outcome built = shell(lineOf(made.output, "build: "));
     ASSERT_EQ(built.status, 0) << built.output;
-    const Outcome checked = shell("'" LODESTIR_BINARY "' check '" + (folder / "shiny_thing/shiny_thing.json").string() + "' --passes '" + folder.string() + "'");
+    const Outcome checked = shell("'" LODESTIR_BINARY "' check '" + (folder / "shiny_thing/shiny_thing.json").string() + "' --passes '" +
+                                  folder.string() + "'");
     EXPECT_EQ(checked.status, 0) << checked.output;
     EXPECT_NE(checked.output.find("shiny_thing"), std::string::npos) << checked.output;
     const Outcome told = shell("'" LODESTIR_BINARY "' passes shiny_thing --passes '" + folder.string() + "'");
@@ -62,7 +63,8 @@ TEST(NewPass, BuildsByHandAndIsFoundOutsideTheTree) {
 TEST(Docs, ThePageOfPassesIsWhatTheyDeclare) {
     const Outcome page = shell("'" LODESTIR_BINARY "' passes --markdown");
     ASSERT_EQ(page.status, 0) << page.output;
-    EXPECT_EQ(readText(Path(LODESTIR_SOURCE_DIR) / "docs/passes.md"), page.output) << "run: build/lodestir passes --markdown > docs/passes.md";
+    EXPECT_EQ(readText(Path(LODESTIR_SOURCE_DIR) / "docs/passes.md"), page.output)
+        << "run: build/lodestir passes --markdown > docs/passes.md";
 }
 
 }  // namespace

@@ -36,21 +36,34 @@ struct Case {
     const char* show;
 };
 const std::vector<Case> cases{
-    {"chain", R"("r": {"type": "render"}, "b": {"type": "blur", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "b"}})", "t"},
-    {"backwards", R"("t": {"type": "tone_map", "in": {"color": "b"}}, "b": {"type": "blur", "in": {"color": "r.color"}}, "r": {"type": "render"})", "t"},
+    {"chain",
+     R"("r": {"type": "render"}, "b": {"type": "blur", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "b"}})", "t"},
+    {"backwards",
+     R"("t": {"type": "tone_map", "in": {"color": "b"}}, "b": {"type": "blur", "in": {"color": "r.color"}}, "r": {"type": "render"})", "t"},
     {"feedback", R"("r": {"type": "render"}, "x": {"type": "temporal", "in": {"color": "r.color", "past": "b@prev"}},
                     "b": {"type": "blur", "in": {"color": "x"}}, "t": {"type": "tone_map", "in": {"color": "b"}})",
      "t"},
     {"self", R"("r": {"type": "render"}, "x": {"type": "temporal", "in": {"color": "r.color", "past": "x@prev"}})", "x"},
-    {"both", R"("r": {"type": "render"}, "x": {"type": "temporal", "in": {"color": "r.color", "past": "r.color@prev"}}, "y": {"type": "blur", "in": {"color": "x"}})", "y"},
-    {"state", R"("r": {"type": "render"}, "a": {"type": "accumulate", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "a.mean"}})", "t"},
-    {"state read before", R"("r": {"type": "render"}, "a": {"type": "accumulate", "in": {"color": "m"}}, "q": {"type": "rate", "in": {"sum": "a.sum@prev"}},
+    {"both",
+     R"("r": {"type": "render"}, "x": {"type": "temporal", "in": {"color": "r.color", "past": "r.color@prev"}}, "y": {"type": "blur", "in": {"color": "x"}})",
+     "y"},
+    {"state",
+     R"("r": {"type": "render"}, "a": {"type": "accumulate", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "a.mean"}})",
+     "t"},
+    {"state read before",
+     R"("r": {"type": "render"}, "a": {"type": "accumulate", "in": {"color": "m"}}, "q": {"type": "rate", "in": {"sum": "a.sum@prev"}},
                              "m": {"type": "mix", "in": {"a": "q", "b": "r.color"}})",
      "a.mean"},
-    {"once", R"("k": {"type": "bake"}, "r": {"type": "render"}, "l": {"type": "lookup", "in": {"color": "r.color", "table": "k"}}, "t": {"type": "tone_map", "in": {"color": "l"}})", "t"},
-    {"once, last frame's", R"("k": {"type": "bake"}, "r": {"type": "render"}, "l": {"type": "lookup", "in": {"color": "r.color", "table": "k@prev"}})", "l"},
-    {"worlds", R"("lod": {"type": "lod_select"}, "r": {"type": "render"}, "m": {"type": "motion"}, "x": {"type": "mix", "in": {"a": "r.color", "b": "m"}})", "x"},
-    {"diamond", R"("r": {"type": "render"}, "a": {"type": "blur", "in": {"color": "r.color"}}, "b": {"type": "half", "in": {"color": "r.color"}},
+    {"once",
+     R"("k": {"type": "bake"}, "r": {"type": "render"}, "l": {"type": "lookup", "in": {"color": "r.color", "table": "k"}}, "t": {"type": "tone_map", "in": {"color": "l"}})",
+     "t"},
+    {"once, last frame's",
+     R"("k": {"type": "bake"}, "r": {"type": "render"}, "l": {"type": "lookup", "in": {"color": "r.color", "table": "k@prev"}})", "l"},
+    {"worlds",
+     R"("lod": {"type": "lod_select"}, "r": {"type": "render"}, "m": {"type": "motion"}, "x": {"type": "mix", "in": {"a": "r.color", "b": "m"}})",
+     "x"},
+    {"diamond",
+     R"("r": {"type": "render"}, "a": {"type": "blur", "in": {"color": "r.color"}}, "b": {"type": "half", "in": {"color": "r.color"}},
                    "c": {"type": "blur", "in": {"color": "b"}}, "d": {"type": "mix", "in": {"a": "a", "b": "c"}}, "t": {"type": "tone_map", "in": {"color": "d"}})",
      "t"},
     {"alone", R"("k": {"type": "bake"})", "k"},
@@ -135,7 +148,8 @@ TEST(Plan, NeedsEachOfItsBarriers) {
                 if (plan.steps[std::size_t(s)].barrier.empty()) continue;
                 const std::vector<Hazard> hazards = findHazards(plan, g, std::vector<int>{s});
                 EXPECT_FALSE(hazards.empty()) << c.name << ", barrier before step " << s + 1;
-                EXPECT_TRUE(std::ranges::none_of(hazards, [](const Hazard& h) { return h.kind == Hazard::Kind::wrongContent; })) << told(hazards);
+                EXPECT_TRUE(std::ranges::none_of(hazards, [](const Hazard& h) { return h.kind == Hazard::Kind::wrongContent; }))
+                    << told(hazards);
                 ++dropped;
             }
         }
@@ -190,9 +204,10 @@ TEST(Hazards, FindPlantedFaults) {
 
 TEST(Plan, SharesMemoryOnlyWhenAsked) {
     fake::Workshop workshop;
-    const Graph g = workshop.build(R"("r": {"type": "render"}, "a": {"type": "blur", "in": {"color": "r.color"}}, "b": {"type": "blur", "in": {"color": "a"}},
+    const Graph g = workshop.build(
+        R"("r": {"type": "render"}, "a": {"type": "blur", "in": {"color": "r.color"}}, "b": {"type": "blur", "in": {"color": "a"}},
                                       "c": {"type": "blur", "in": {"color": "b"}}, "d": {"type": "blur", "in": {"color": "c"}})",
-                                   "d");
+        "d");
     EXPECT_EQ(makePlan(g).groups, 0);
     const Plan shared = makePlan(g, {}, {.aliasing = true});
     EXPECT_GE(shared.groups, 1);

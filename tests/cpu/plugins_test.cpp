@@ -53,8 +53,9 @@ protected:
         const Path folder = root() / name;
         writeFile(folder / (name + ".cpp"), source);
         const std::string tree = LODESTIR_SOURCE_DIR;
-        const std::string command = "g++ -std=c++20 -fPIC -shared -fvisibility=hidden -I" + tree + " -I" + tree + "/framework/shaders '-DLODESTIR_ABI=\"" + abi +
-                                    "\"' " + (folder / (name + ".cpp")).string() + " -o " + (folder / ("lib" + name + ".so")).string();
+        const std::string command = "g++ -std=c++20 -fPIC -shared -fvisibility=hidden -I" + tree + " -I" + tree +
+                                    "/framework/shaders '-DLODESTIR_ABI=\"" + abi + "\"' " + (folder / (name + ".cpp")).string() + " -o " +
+                                    (folder / ("lib" + name + ".so")).string();
         ASSERT_EQ(std::system(command.c_str()), 0) << command;
     }
 
@@ -85,10 +86,13 @@ TEST_F(Plugins, SayWhatIsWrong) {
     EXPECT_EQ(complaint(libraries, "pair"), "g.json:3:7: \"pair\" holds 2 passes; name one: pair.First, pair.Second");
     EXPECT_EQ(complaint(libraries, "pair.Frist"), "g.json:3:7: no pass type \"pair.Frist\"; did you mean \"pair.First\"?");
     EXPECT_EQ(complaint(libraries, "singel"), "g.json:3:7: no pass type \"singel\"; did you mean \"single\"?");
-    EXPECT_EQ(complaint(libraries, "stale"), "g.json:3:7: pass library \"stale\" was built against framework 0123456789abcdef, this is " LODESTIR_ABI
-                                             "; run: cmake --build build --target pass_stale");
-    EXPECT_EQ(complaint(libraries, "empty"), "g.json:3:7: \"" + (root() / "empty/libempty.so").string() + "\" exports no pass; end its .cpp with LODESTIR_PASS(...)");
-    EXPECT_NE(complaint(libraries, "broken").find("pass library \"broken\" can't be loaded: "), std::string::npos) << complaint(libraries, "broken");
+    EXPECT_EQ(complaint(libraries, "stale"),
+              "g.json:3:7: pass library \"stale\" was built against framework 0123456789abcdef, this is " LODESTIR_ABI
+              "; run: cmake --build build --target pass_stale");
+    EXPECT_EQ(complaint(libraries, "empty"),
+              "g.json:3:7: \"" + (root() / "empty/libempty.so").string() + "\" exports no pass; end its .cpp with LODESTIR_PASS(...)");
+    EXPECT_NE(complaint(libraries, "broken").find("pass library \"broken\" can't be loaded: "), std::string::npos)
+        << complaint(libraries, "broken");
     EXPECT_THROW(PluginLibraries({root() / "nowhere"}), Error);
 }
 
@@ -105,7 +109,9 @@ TEST_F(Plugins, AllLoadsWhatLoads) {
 
 TEST_F(Plugins, WorkInAGraph) {
     PluginLibraries libraries({root()});
-    const Json json = Json::parse(R"({"format": 1, "passes": {"a": {"type": "pair.First", "set": {"n": 4}}, "b": {"type": "pair.Second", "in": {"image": "a"}}}, "show": "b"})", "g.json");
+    const Json json = Json::parse(
+        R"({"format": 1, "passes": {"a": {"type": "pair.First", "set": {"n": 4}}, "b": {"type": "pair.Second", "in": {"image": "a"}}}, "show": "b"})",
+        "g.json");
     const Graph graph = buildGraph(readDescription(json, "g.json"), libraries);
     EXPECT_EQ(graph.nameOf(graph.show), "b.copy");
     EXPECT_EQ(std::get<int>(graph.nodes[0].pass->parameters[0]->value), 4);
@@ -127,7 +133,8 @@ TEST(ShippedPasses, DeclareThemselvesWithoutAGpu) {
         checkDeclaration(*type.pass, entry.type, {}, problems);
         EXPECT_FALSE(type.doc.empty()) << entry.type;
         for (const Port* port : type.pass->ports) EXPECT_FALSE(port->doc.empty()) << entry.type << "." << port->name;
-        for (const Parameter* parameter : type.pass->parameters) EXPECT_FALSE(parameter->doc.empty()) << entry.type << "." << parameter->name;
+        for (const Parameter* parameter : type.pass->parameters)
+            EXPECT_FALSE(parameter->doc.empty()) << entry.type << "." << parameter->name;
     }
     std::string said;
     for (const Problem& problem : problems.list()) said += problem.text() + "\n";

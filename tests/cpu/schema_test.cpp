@@ -36,7 +36,8 @@ TEST(Schema, HasARuleForEachPass) {
     EXPECT_EQ(radius.find("default")->asInt(), 8);
     EXPECT_EQ(blur.find("properties")->find("off"), nullptr);  // it has a bypass
     const Json& lod = *rules.items()[1].find("then");
-    EXPECT_EQ(lod.find("properties")->find("set")->find("properties")->find("mode")->find("enum")->dump(-1), "[\"finest\", \"distance\", \"schedule\"]");
+    EXPECT_EQ(lod.find("properties")->find("set")->find("properties")->find("mode")->find("enum")->dump(-1),
+              "[\"finest\", \"distance\", \"schedule\"]");
     EXPECT_EQ(lod.find("properties")->find("in")->find("required"), nullptr);  // a World finds its source itself
     EXPECT_FALSE(rules.items()[2].find("then")->find("properties")->find("off")->find("const")->asBool());
 }

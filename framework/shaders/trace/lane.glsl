@@ -2,12 +2,13 @@
 // Traversal ray by ray: each lane walks the tree alone. For any subgroup size.
 #include "texture/alpha.glsl"
 #include "trace/reference.glsl"
+#include "trace/triangle.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LaneNodes { uvec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LaneTriangles { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LaneInstances { TraceInstance at[]; };
 
-const uint LANE_STACK = 2u * 64u;  // of the top level and of a mesh: scene/bvh.h, bvhStack
+const uint LANE_STACK = 2u * 64u;  // scene/bvh.h, bvhStack, for the top level and a mesh
 
 Hit traceRay(World w, Ray ray, bool anyHit) {
     vec3 origin = ray.origin, direction = ray.direction;
@@ -47,19 +48,14 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
                 if (key[i] != miss) stack[size++] = references[key[i] & 3u];
             current = key.x != miss ? references[key.x & 3u] : stack[--size];
         } else if (current < REF_BACK) {
-            uint first = current & 0xfffffffu, count = ((current >> 28) & 7u) + 1u;
-            for (uint primitive = first; primitive < first + count; ++primitive) {
+            uint last = lastTriangle(current);
+            for (uint primitive = firstTriangle(current); primitive <= last; ++primitive) {
                 LaneTriangles triangle = LaneTriangles(w.triangles + uint64_t(primitive) * 48ul);
                 vec4 a = triangle.at[0], b = triangle.at[1], c = triangle.at[2];
                 vec3 v0 = a.xyz, e1 = vec3(a.w, b.xy), e2 = vec3(b.zw, c.x);
-                // Moeller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
-                vec3 p = cross(direction, e2), s = origin - v0, q = cross(s, e1);
-                float inverse = 1.0 / dot(e1, p);
-                vec2 uv = vec2(dot(s, p), dot(direction, q)) * inverse;
-                float t = dot(e2, q) * inverse;
-                bool met = min(min(uv.x, uv.y), 1.0 - uv.x - uv.y) >= 0.0 && t > tMin && t < hit.t;
-                if (met && floatBitsToUint(c.y) != 0u) met = alphaAccepts(w, primitive, uv);
-                if (met) hit = Hit(t, uv, primitive, instance);
+                Meeting m = meet(origin, direction, tMin, hit.t, v0, e1, e2);
+                if (m.inside && floatBitsToUint(c.y) != 0u) m.inside = alphaAccepts(w, primitive, m.barycentrics);
+                if (m.inside) hit = Hit(m.t, m.barycentrics, primitive, instance);
             }
             current = anyHit && hit.primitive != NONE ? REF_NONE : stack[--size];
         } else if (current == REF_BACK) {

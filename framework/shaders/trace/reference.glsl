@@ -3,7 +3,8 @@
 #include "world/world.h"
 #include "trace/ray.h"
 
-const uint REF_LEAF = 0x80000000u;      // | (count - 1) << 28 | first triangle
+const uint REF_LEAF = 0x80000000u;      // | (count - 1) << 28 | REF_MASKED when one of the triangles has an alpha mask | first triangle
+const uint REF_MASKED = 0x08000000u;
 const uint REF_BACK = 0xd0000000u;      // return from an instance
 const uint REF_INSTANCE = 0xe0000000u;  // | instance
 const uint REF_NONE = 0xffffffffu;
@@ -14,8 +15,14 @@ vec3 inverseOf(vec3 direction) {
     return 1.0 / mix(direction, vec3(least), lessThan(abs(direction), vec3(least)));
 }
 
-// The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing.
-uint rootOf(World w, uint instance, uint mesh) { return w.roots.at[mesh * LEVELS + w.levels.at[instance]]; }
+uint firstTriangle(uint leaf) { return leaf & 0x07ffffffu; }
+uint lastTriangle(uint leaf) { return firstTriangle(leaf) + ((leaf >> 28) & 3u); }
+
+// The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing. Without triangles: straight back.
+uint rootOf(World w, uint instance, uint mesh) {
+    uint root = w.roots.at[mesh * LEVELS + w.levels.at[instance]];
+    return root == REF_NONE ? REF_BACK : root;
+}
 
 #ifdef COUNT_STEPS
 uint traceSteps = 0u;  // nodes that this invocation's rays visited

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// The tables that lights are sampled by.
+#include <framework/scene/alias_table.h>
+#include <framework/scene/environment_table.h>
+#include <framework/scene/light_list.h>
+#include <framework/scene/mipmaps.h>
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace lodestir;
+
+namespace {
+
+/// Probability of each entry when the table is walked: the uniform choice keeps its own share and hands the rest to its alias.
+std::vector<double> walked(const std::vector<AliasEntry>& table) {
+    std::vector<double> probability(table.size(), 0.0);
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        probability[i] += table[i].aliasProbability / double(table.size());
+        probability[table[i].alias] += (1 - table[i].aliasProbability) / double(table.size());
+    }
+    return probability;
+}
+
+/// One emissive unit square (two triangles) seen by `materials[0]`, at the identity.
+Scene squareScene(float emission) {
+    Scene scene;
+    scene.materials.push_back({.name = "light", .emission = glm::vec3(emission)});
+    MeshLevel level;
+    level.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    level.normals.assign(4, {0, 0, 1});
+    level.triangles = {{0, 1, 2}, {0, 2, 3}};
+    level.materials = {0, 0};
+    scene.meshes.push_back({"square", {level}});
+    scene.nodes.push_back({.name = "root"});
+    scene.instances.push_back({"square", 0, 0});
+    return scene;
+}
+
+MeshEmitters squareEmitters() { return {.primitives = {0, 1}, .triangles = {{0, 1, 2}, {0, 2, 3}}, .materials = {0, 0}}; }
+
+}  // namespace
+
+// If this failed, some lights would be chosen more or less often than the density that the estimators divide by.
+TEST(AliasTable, GivesEachEntryItsShare) {
+    const std::vector<double> weights{5, 0, 1, 0.25, 8, 0, 0.001, 3};
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const auto table = makeAliasTable(weights);
+    const auto probability = walked(table);
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        EXPECT_NEAR(probability[i], weights[i] / total, 1e-6) << i;
+        EXPECT_NEAR(table[i].pmf, weights[i] / total, 1e-6) << i;
+        if (weights[i] == 0) EXPECT_EQ(probability[i], 0.0) << "entry " << i << " without weight is chosen";
+    }
+}
+
+TEST(AliasTable, EqualAndAbsentWeights) {
+    for (const std::vector<double>& weights : {std::vector<double>(7, 1.0), std::vector<double>(7, 0.0)})
+        for (double p : walked(makeAliasTable(weights))) EXPECT_NEAR(p, 1.0 / 7, 1e-7);
+    EXPECT_TRUE(makeAliasTable({}).empty());
+}
+
+// Power is a half of the choice, the kind of light the other half: here one kind, so the two triangles share evenly.
+TEST(LightList, TrianglesByPower) {
+    const Scene scene = squareScene(3);
+    const std::vector<MeshEmitters> emitters{squareEmitters()};
+    const LightList list = listLights(scene, emitters, std::vector{glm::mat4(1)}, 1);
+    ASSERT_EQ(list.lights.size(), 2u);
+    EXPECT_EQ(list.firstLight[0], 0u);
+    EXPECT_EQ(list.environmentLight, NONE);
+    for (const LightRecord& light : list.lights) {
+        EXPECT_EQ(light.type, LIGHT_TRIANGLE);
+        EXPECT_NEAR(light.pmf, 0.5f, 1e-6f);
+    }
+}
+
+// A kind of light that is far weaker than another must keep a fair share, or the corner that it alone lights is all noise.
+TEST(LightList, NoKindStarves) {
+    Scene scene = squareScene(1e-4f);
+    scene.environment.radiance = {glm::vec3(1)};
+    scene.lights.push_back({.name = "lamp", .type = LightType::point, .intensity = 1e-5f, .node = 0});
+    const std::vector<MeshEmitters> emitters{squareEmitters()};
+    const LightList list = listLights(scene, emitters, std::vector{glm::mat4(1)}, 10);
+    ASSERT_EQ(list.lights.size(), 4u);
+    EXPECT_EQ(list.environmentLight, 3u);
+    EXPECT_NEAR(list.lights[0].pmf + list.lights[1].pmf, 1.0 / 6, 1e-3);
+    EXPECT_NEAR(list.lights[2].pmf, 1.0 / 6, 1e-3);
+    EXPECT_NEAR(list.lights[3].pmf, 0.5 + 1.0 / 6, 1e-3);
+}
+
+TEST(LightList, BlackThingsAreNoLights) {
+    Scene scene = squareScene(0);
+    const LightList list = listLights(scene, std::vector<MeshEmitters>(1), std::vector{glm::mat4(1)}, 1);
+    EXPECT_TRUE(list.lights.empty());
+    EXPECT_EQ(list.firstLight[0], NONE);
+}
+
+// The density over the unit square of uv must integrate to 1, and follow the light: a constant sky is sampled by solid angle.
+TEST(EnvironmentTable, DensityIntegratesToOneAndFollowsSolidAngle) {
+    Environment map;
+    map.width = 16;
+    map.height = 8;
+    map.radiance.assign(128, glm::vec3(2));
+    const auto texels = environmentTable(map);
+    double integral = 0;
+    for (const EnvironmentTexel& t : texels) integral += t.density / 128;
+    EXPECT_NEAR(integral, 1, 1e-5);
+    const double ratio = texels[0].density / texels[3 * 16].density;
+    EXPECT_NEAR(ratio, std::sin(glm::pi<double>() * 0.5 / 8) / std::sin(glm::pi<double>() * 3.5 / 8), 1e-5);
+}
+
+// Radiance is interpolated when it is read, so wherever it is positive the density must be.
+TEST(EnvironmentTable, NeighboursOfABrightTexelCanBeChosen) {
+    Environment map;
+    map.width = 16;
+    map.height = 8;
+    map.radiance.assign(128, glm::vec3(0));
+    map.radiance[4 * 16] = glm::vec3(100);  // at the seam: its left neighbour is the last column
+    const auto texels = environmentTable(map);
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) EXPECT_GT(texels[std::size_t((4 + dy) * 16 + (dx + 16) % 16)].density, 0) << dx << " " << dy;
+    EXPECT_EQ(texels[4 * 16 + 2].density, 0);
+}
+
+TEST(Mipmaps, HalvesDownToOneTexelInLinearLight) {
+    Texture texture{.name = "checker", .width = 4, .height = 2, .rgba = {}, .srgb = true};
+    for (int i = 0; i < 8; ++i) texture.rgba.insert(texture.rgba.end(), 3, (i + i / 4) % 2 ? 255 : 0), texture.rgba.push_back(255);
+    std::vector<std::uint32_t> texels(3, 7u);
+    EXPECT_EQ(appendMipmaps(texture, texels), 3u);
+    ASSERT_EQ(texels.size(), 3u + 8u + 2u + 1u);
+    // Half black, half white is 0.5 in linear light, which sRGB encodes as 188.
+    for (std::size_t i = 3 + 8; i < texels.size(); ++i) EXPECT_EQ(texels[i], 0xffbcbcbcu);
+}
