@@ -24,7 +24,7 @@ using bvh::Reference;
 constexpr float triangleCost = 0.3f;
 constexpr std::size_t maxTriangles = std::size_t(1) << 27;  // bits of a leaf reference that hold its first triangle
 constexpr float farthest = 1e18f;                           // squares of coordinates must stay finite
-constexpr std::size_t parallelNodes = 8192;                 // nodes of a binary subtree that are worth a task
+constexpr std::size_t parallelNodes = 32768;                // nodes of a binary subtree that are worth a task
 
 // The grid is wider than the mesh by this many steps on each side, and a box is wider than its content by `boxMargin` before it is rounded
 // outwards: that covers the rounding of `bound * inverse + offset` in traversal for origins up to a million steps away.
@@ -35,15 +35,15 @@ struct Grid {
     glm::vec3 base{0}, scale{1};
 
     explicit Grid(const Bounds& bounds) {
-        const Lanes extent = bounds.high - bounds.low;
+        const Lanes extent = bounds.high - bounds.low, reach = bvh::larger(bounds.high, -bounds.low);
         const float largest = std::max({extent[0], extent[1], extent[2], 1e-18f});
         for (int axis = 0; axis < 3; ++axis) {
-            // A flat axis gets fine steps, but not so fine that numbers explode: a thousandth of the largest is below float precision.
-            scale[axis] = std::max(extent[axis], largest * 1e-3f) / (gridSteps - 2 * gridMargin);
+            // Steps stay above what floats resolve: a thousandth of the largest extent's, and four units in the last place of coordinates.
+            const float span = std::max({extent[axis], largest * 1e-3f, reach[axis] * 0x1p-22f * gridSteps});
+            scale[axis] = span / (gridSteps - 2 * gridMargin);
             base[axis] = bounds.low[axis] - gridMargin * scale[axis];
         }
     }
-    glm::dvec3 place(glm::dvec3 point) const { return (point - glm::dvec3(base)) / glm::dvec3(scale); }
     std::uint32_t quantise(float low, float high, int axis) const {
         const double step = 1.0 / double(scale[axis]);
         const double l = std::floor((double(low) - double(base[axis])) * step - boxMargin);
@@ -319,13 +319,12 @@ Bvh buildTopLevel(std::span<const Box> boxes) {
 
 Box boundsOf(const Bvh& bvh, const glm::mat4& transform) {
     Box result;
-    const auto include = [&](glm::vec3 low, glm::vec3 high) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 grid(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z);
-            const glm::vec3 world(transform * glm::vec4(bvh.gridBase + bvh.gridScale * grid, 1));
-            result.low = glm::min(result.low, world);
-            result.high = glm::max(result.high, world);
-        }
+    const glm::mat3 linear(transform), widening(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
+    const auto include = [&](glm::vec3 low, glm::vec3 high) {  // on the grid
+        const glm::vec3 center = bvh.gridBase + 0.5f * (low + high) * bvh.gridScale, half = 0.5f * (high - low) * bvh.gridScale;
+        const glm::vec3 at(transform * glm::vec4(center, 1)), reach = widening * half;
+        result.low = glm::min(result.low, at - reach);
+        result.high = glm::max(result.high, at + reach);
     };
     const auto descend = [&](const auto& self, std::uint32_t reference, int levels) -> void {
         const BvhNode& node = bvh.nodes[reference];

@@ -15,7 +15,7 @@ namespace {
 constexpr int binCount = 16;
 constexpr std::size_t sweepLimit = 8;         // up to here every split is tried: cheaper than clearing the bins
 constexpr std::size_t parallelBins = 65536;   // references that are worth being binned by all cores
-constexpr std::size_t parallelNodes = 4096;   // references that are worth a task
+constexpr std::size_t parallelNodes = 16384;  // references that are worth a task
 
 struct Bin {
     Bounds bounds;

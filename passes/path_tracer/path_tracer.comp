@@ -36,7 +36,9 @@ float directWeight(LightSample l, float pdfBsdf) {
 
 uint pathItems() { return uint(params.spp); }
 
-World pathWorld(uint item) { return world(); }
+World scene = world();  // loaded once: it is the same for all samples
+
+World pathWorld(uint item) { return scene; }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     if (item == 0) p.radiance = vec3(0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A dining room on a summer afternoon: sun through a wide window and a garden door on herringbone oak, a table, books, an armchair, a plant.
+// A dining room on a summer afternoon: sun through a window and a garden door on herringbone oak, a table, books, an armchair, a plant.
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "bookcase.h"

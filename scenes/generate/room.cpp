@@ -30,8 +30,8 @@ Mesh sheet(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& dow
     return mesh;
 }
 
-/// A rectangle with an opening from `low` to `high` (shares of right and down) and its four reveals, `outward` deep. The wall is a three by three
-/// lattice without its middle: all pieces share corners, so no ray slips through a joint.
+/// A rectangle with an opening from `low` to `high` (shares of right and down) and its four reveals, `outward` deep. The wall is a three by
+/// three lattice without its middle: all pieces share corners, so no ray slips through a joint.
 Mesh piercedWall(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& down, const glm::vec2& low, const glm::vec2& high,
                  const glm::vec3& outward) {
     const auto at = [&](float s, float t) { return corner + right * s + down * t; };
@@ -179,12 +179,12 @@ void addRoom(Glb& glb, const Palette& palette, const Room& room) {
     struct Run {
         glm::vec2 from, to;
     };
+    // Half of each board is in the wall. The skirting leaves the door free.
     for (const Run& run : {Run{{-w, b}, {w, b}}, Run{{-w, f}, {room.doorLeft - 0.02f, f}}, Run{{room.doorRight + 0.02f, f}, {w, f}},
-                           Run{{-w, b}, {-w, f}}, Run{{w, b}, {w, f}}}) {
-        // Half of each board is in the wall.
+                           Run{{-w, b}, {-w, f}}, Run{{w, b}, {w, f}}})
         addRun(mouldings, palette.trim, {run.from.x, 0.055f, run.from.y}, {run.to.x, 0.055f, run.to.y}, 0.11f, 0.036f, 0.007f);
+    for (const Run& run : {Run{{-w, b}, {w, b}}, Run{{-w, f}, {w, f}}, Run{{-w, b}, {-w, f}}, Run{{w, b}, {w, f}}})
         addRun(mouldings, palette.trim, {run.from.x, h - 0.02f, run.from.y}, {run.to.x, h - 0.02f, run.to.y}, 0.07f, 0.10f, 0.02f);
-    }
     glb.addNode(mouldings);
     glb.addNode(window(palette, room));
     glb.addNode(gardenDoor(palette, room));

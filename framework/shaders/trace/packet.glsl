@@ -100,15 +100,15 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             int mine = subgroupShuffle(key, rankInPush(stack, pushed) & 3u), nearest = subgroupBroadcast(key, 0u);
             pushRanked(stack, subgroupShuffle(node.odd, 4u + uint(mine & 3)), pushed);
             current = entered == 0u ? top : subgroupShuffle(node.odd, 4u + uint(nearest & 3));
-            stack.size += entered - 1u;
+            stack.size = entered != 0u ? stack.size + pushed : stack.size - 1u;
         } else if (current < REF_BACK) {
             if (loneSize != 0u && (current & REF_MASKED) == 0u) {
                 testLeafOfOne(w, current, r, lone, p);
             } else {
                 testLeaf(w, current, r, p);
             }
-            bool finished = anyHit && maxAll(floatBitsToInt(p.tMax)) < 0;
-            current = finished ? REF_NONE : top;
+            current = top;
+            if (anyHit) current = maxAll(floatBitsToInt(p.tMax)) < 0 ? REF_NONE : current;
             --stack.size;
         } else if (current == REF_BACK) {
             r = outside;
