@@ -5,6 +5,7 @@
 #include <framework/graph/plan.h>
 #include <framework/graph/plugins.h>
 #include <framework/graph/scene_node.h>
+#include <framework/scene/level_policy.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -33,6 +34,16 @@ void checkVariants(const Options& options, const std::vector<std::string>& names
     }
 }
 
+/// Which levels the graph shows: a graph without a pass that selects them follows the scene file.
+std::string levelPolicy(const Graph& graph) {
+    if (graph.description.scene.empty()) return "no scene is named";
+    try {
+        return "by the scene: " + describe(loadScene(graph.description.scene).lod);
+    } catch (const Error& error) {
+        throw Error(graph.description.sceneWhere, fmt::format("the scene can't be loaded: {}", error.problems()[0].text()));
+    }
+}
+
 int check(const Options& options) {
     PluginLibraries libraries(options.session.passes);
     libraries.addBuiltIn("scene", scenePlugin());
@@ -43,7 +54,14 @@ int check(const Options& options) {
     if (!options.session.changes.variant) checkVariants(options, graph.description.variants, libraries, problems);
     problems.raise();
     const Plan plan = makePlan(graph, pinned, {.allBarriers = options.session.allBarriers});
-    fmt::print("{}", options.json ? facts(plan, graph).dump() + "\n" : text(plan, graph));
+    const std::string levels = levelPolicy(graph);
+    if (options.json) {
+        Json json = facts(plan, graph);
+        json["levels"] = levels;
+        fmt::print("{}\n", json.dump());
+    } else {
+        fmt::print("{}levels of detail\n  {}\n", text(plan, graph), levels);
+    }
     return 0;
 }
 

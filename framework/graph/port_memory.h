@@ -15,12 +15,13 @@ struct PortMemory {
     std::array<gpu::Buffer*, 2> copies{};
     std::array<std::shared_ptr<const void>, 2> keep;  ///< handles: owns what the struct points to
     int current = 0;
+    int previous = 0;           ///< the copy that @prev reads: what was current when the frame began
     std::uint64_t version = 0;  ///< counts changes of the content
     std::size_t bytes = 0;
     bool handle = false;
 
     gpu::Buffer& now() const { return *copies[std::size_t(current)]; }
-    gpu::Buffer& last() const { return *copies[std::size_t(1 - current)]; }
+    gpu::Buffer& last() const { return *copies[std::size_t(previous)]; }
 };
 
 class PortMemories {

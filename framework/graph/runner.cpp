@@ -250,6 +250,7 @@ FrameReport Runner::State::run() {
     std::uint32_t dispatches = 0;
     std::vector<std::array<std::uint32_t, 2>> stamps;
     bool handlesChanged = false;
+    for (std::size_t i = 0; i < plan_.resources.size(); ++i) memories_->at(i).previous = memories_->at(i).current;
     for (const PlanStep& step : plan_.steps) {
         const auto node = std::size_t(step.node);
         const GraphNode& n = graph_.nodes[node];

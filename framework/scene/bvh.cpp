@@ -317,6 +317,19 @@ Bvh buildTopLevel(std::span<const Box> boxes) {
     return bvh;
 }
 
+TraceInstance traceInstance(std::uint32_t mesh, glm::vec3 gridBase, glm::vec3 gridScale, const glm::mat4& toWorld) {
+    const glm::dmat4 exact(toWorld);
+    const glm::dmat3 toObject = glm::inverse(glm::dmat3(exact));
+    const glm::dvec3 base(exact * glm::dvec4(gridBase, 1));
+    TraceInstance instance{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dvec3 row(toObject[0][axis], toObject[1][axis], toObject[2][axis]);
+        instance.toGrid[axis] = glm::vec4(row / double(gridScale[axis]), base[axis]);
+    }
+    instance.mesh = mesh;
+    return instance;
+}
+
 Box boundsOf(const Bvh& bvh, const glm::mat4& transform) {
     Box result;
     const glm::mat3 linear(transform), widening(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));

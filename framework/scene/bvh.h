@@ -2,6 +2,7 @@
 // Bounding volume hierarchies: 4-wide nodes of 64 bytes with 16-bit boxes on a per-mesh grid, built by binned SAH.
 #pragma once
 #include <framework/core/api.h>
+#include <framework/shaders/world/world.h>
 
 #include <glm/glm.hpp>
 
@@ -67,6 +68,8 @@ LODESTIR_API Bvh buildBvh(const BvhInput& input);
 /// The same, kept in the cache folder by content where building takes longer than reading (from 16384 triangles on).
 LODESTIR_API Bvh cachedBvh(const BvhInput& input);
 
+/// How traversal enters an instance of meshes that are built on this grid.
+LODESTIR_API TraceInstance traceInstance(std::uint32_t mesh, glm::vec3 gridBase, glm::vec3 gridScale, const glm::mat4& toWorld);
 /// Bounds of the BVH's content after a transform: of its upper boxes' corners, tighter than those of one box.
 LODESTIR_API Box boundsOf(const Bvh& bvh, const glm::mat4& transform);
 /// Builds the hierarchy over boxes; leaves are instance references (bvh_ref::instance | box). Triangles stay empty; order = boxes in

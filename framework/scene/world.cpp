@@ -245,15 +245,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const std::
         all.low = glm::min(all.low, boxes.back().low);
         all.high = glm::max(all.high, boxes.back().high);
         const Box& grid = fixed_->grids[instance.mesh];  // low: base, high: scale
-        glm::mat4 toGrid(1);
-        for (int axis = 0; axis < 3; ++axis) {
-            toGrid[axis][axis] = 1 / grid.high[axis];
-            toGrid[3][axis] = -grid.low[axis] / grid.high[axis];
-        }
-        TraceInstance trace{};
-        putRows(toGrid * toObject, trace.toGrid);
-        trace.mesh = instance.mesh;
-        traced.push_back(trace);
+        traced.push_back(traceInstance(instance.mesh, grid.low, grid.high, toWorld));
         InstanceRecord record{};
         putRows(toWorld, record.toWorld);
         putRows(toObject, record.toObject);

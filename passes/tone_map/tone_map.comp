@@ -26,7 +26,7 @@ vec3 reinhard(vec3 c) { return c / (1 + luminance(c)); }
 void main() {
     if (skip()) return;
     ivec2 p = pixel();
-    vec3 c = max(color(p).rgb, 0) * exp2(params.exposure + uintBitsToFloat(argument(0)));
+    vec3 c = max(colorRgba(p).rgb, 0) * exp2(params.exposure + uintBitsToFloat(argument(0)));
     if (params.curve == curve_neutral) c = neutral(c);
     else if (params.curve == curve_aces) c = aces(c);
     else if (params.curve == curve_reinhard) c = reinhard(c);

@@ -52,7 +52,9 @@ TEST(AliasTable, GivesEachEntryItsShare) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
         EXPECT_NEAR(probability[i], weights[i] / total, 1e-6) << i;
         EXPECT_NEAR(table[i].pmf, weights[i] / total, 1e-6) << i;
-        if (weights[i] == 0) EXPECT_EQ(probability[i], 0.0) << "entry " << i << " without weight is chosen";
+        if (weights[i] == 0) {
+            EXPECT_EQ(probability[i], 0.0) << "entry " << i << " without weight is chosen";
+        }
     }
 }
 

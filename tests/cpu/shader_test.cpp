@@ -4,6 +4,7 @@
 #include <framework/core/tasks.h>
 #include <framework/gpu/shader.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,7 +123,7 @@ TEST_F(ShaderTest, DamagedCacheIsCompiledAgain) {
 TEST_F(ShaderTest, ThreadsCompileAtOnce) {
     constexpr std::size_t count = 12;
     for (std::size_t i = 0; i < count; ++i)
-        write(std::to_string(i) + ".comp", std::string(head) + "void main() { for (uint i = 0; i < " + std::to_string(i) + "u; ++i); }\n");
+        write(fmt::format("{}.comp", i), fmt::format("{}void main() {{ for (uint i = 0; i < {}u; ++i); }}\n", head, i));
     std::vector<Spirv> made(count);
     parallelFor(count, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) made[i] = compileShader(source(std::to_string(i) + ".comp"));

@@ -11,7 +11,7 @@ std::string lineAfter(const std::string& text, const std::string& label) {
     const std::size_t start = text.find(label);
     if (start == text.npos) return "";
     std::string line = text.substr(start + label.size(), text.find('\n', start) - start - label.size());
-    const std::string usual = (sourceFolder / "build/").string(), ours = std::string(LODESTIR_BUILD_DIR) + "/";
+    const std::string usual = (sourceFolder / "build/").string(), ours = LODESTIR_BUILD_DIR "/";
     for (std::size_t at = 0; (at = line.find(usual, at)) != line.npos; at += ours.size()) line.replace(at, usual.size(), ours);
     return line;
 }
@@ -51,6 +51,40 @@ TEST_F(NewPass, InAnotherFolderBuildsAndRunsAndTouchesNothing) {
     const Output described = lodestir({"passes", "double_light", "--passes", (folder / "mine").string(), "--json"});
     EXPECT_EQ(described.exitCode, 0) << described.err;
     EXPECT_NE(described.out.find("strength"), std::string::npos) << described.out;
+}
+
+// If this fails, the checks that all other tests run with find nothing, or a mistake in a shader can't be found.
+TEST_F(NewPass, MistakesInItsShaderAreFound) {
+    const std::string made = shell((sourceFolder / "scripts/new_pass").string() + " faulty --in mine").out;
+    shell(lineAfter(made, "build:"));
+    ASSERT_FALSE(HasFailure());
+    const auto runWith = [&](const std::string& line, const std::string& flag) {
+        writeFile(folder / "mine/faulty/faulty.comp", "#version 460\n#include \"pass.glsl\"\nvoid main() {\n    if (skip()) return;\n    ivec2 p = pixel();\n    " + line + "\n}\n");
+        Arguments arguments{"run", (folder / "mine/faulty/faulty.json").string(), "--passes", (folder / "mine").string(), "--size", "48x32", "--show", "new.result",
+                            "--out", (folder / "out").string()};
+        if (!flag.empty()) arguments.push_back(flag);
+        return lodestir(arguments);
+    };
+    const Output clean = runWith("storeResult(p, colorRgba(p));", "");
+    EXPECT_EQ(clean.exitCode, 0) << clean.err;
+    std::filesystem::remove_all(folder / "out");
+
+    const Output nan = runWith("storeResult(p, p == ivec2(5, 7) ? vec4(uintBitsToFloat(0x7fc00000u)) : colorRgba(p));", "--check-nan");
+    EXPECT_EQ(nan.exitCode, 1);
+    EXPECT_NE(nan.err.find("new.result"), std::string::npos) << nan.err;
+    EXPECT_NE(nan.err.find("(5, 7)"), std::string::npos) << nan.err;
+    EXPECT_TRUE(filesOf(folder / "out").empty()) << "a failed run leaves nothing";
+
+    const Output outside = runWith("storeResult(p, colorRgba(p + ivec2(1, 0)));", "--check-bounds");
+    EXPECT_EQ(outside.exitCode, 1);
+    EXPECT_NE(outside.err.find("\"color\" at (48, "), std::string::npos) << outside.err;
+    EXPECT_NE(outside.err.find("32 accesses"), std::string::npos) << "one a row: " << outside.err;
+
+    const Output wrong = runWith("storeResult(p, colour(p));", "");
+    EXPECT_EQ(wrong.exitCode, 1);
+    EXPECT_NE(wrong.err.find("faulty.comp:6"), std::string::npos) << wrong.err;
+    EXPECT_NE(wrong.err.find("colour"), std::string::npos) << wrong.err;
+    EXPECT_TRUE(filesOf(folder / "out").empty()) << "a failed run leaves nothing";
 }
 
 TEST_F(NewPass, RefusesWhatIsThereAlreadyAndWhatIsNoName) {

@@ -66,7 +66,7 @@ TEST_F(Estimators, Environment) {
     writeExr(folder / "map.exr", map);
     std::vector<Quad> quads{{{-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, {.color = {0.6, 0.5, 0.4}}}};
     for (Quad& quad : box({-1.6, 0, -0.8}, {-0.6, 1.4, 0.3}, {.color = {0.8, 0.8, 0.8}, .roughness = 0.5, .ior = 1.5})) quads.push_back(quad);
-    for (Quad& quad : box({0.3, 0, -0.6}, {1.3, 0.8, 0.5}, {.color = {0.9, 0.6, 0.3}, .metallic = 1, .roughness = 0.4})) quads.push_back(quad);
+    for (Quad& quad : box({0.3, 0, -0.6}, {1.3, 0.8, 0.5}, {.color = {0.9, 0.6, 0.3}, .metallic = 1, .roughness = 0.6})) quads.push_back(quad);
     writeModel(folder, "blocks", quads);
     writeScene(folder, "blocks", {.position = {1.5, 2.6, 4.5}, .target = {-0.1, 0.4, 0}, .fovy = 40},
                {{"type", "map"}, {"file", "map.exr"}, {"rotationDegrees", 40}, {"strength", 1.0}});

@@ -55,6 +55,7 @@ public:
 
     /// Uploads; the World's addresses live as long as this scene does.
     World upload(const gpu::Device& device) {
+        toObject_.clear();
         std::vector<Box> boxes;
         std::vector<TraceInstance> instances;
         std::vector<uint> levels;
@@ -66,13 +67,9 @@ public:
             }
             boxes.push_back(box);
             const Bvh& bvh = meshes_[p.mesh][0].bvh;
-            const glm::dmat4 toObject = glm::inverse(glm::dmat4(p.toWorld));
-            TraceInstance& instance = instances.emplace_back();
-            instance.mesh = p.mesh;
-            for (int axis = 0; axis < 3; ++axis)
-                instance.toGrid[axis] = glm::dvec4(toObject[0][axis], toObject[1][axis], toObject[2][axis], toObject[3][axis] - double(bvh.gridBase[axis])) /
-                                        double(bvh.gridScale[axis]);
+            instances.push_back(traceInstance(p.mesh, bvh.gridBase, bvh.gridScale, p.toWorld));
             levels.push_back(p.level);
+            toObject_.push_back(glm::inverse(glm::dmat4(p.toWorld)));
         }
         const Bvh top = buildTopLevel(boxes);
         std::vector<BvhNode> nodes = nodes_;
@@ -106,7 +103,7 @@ public:
         other = farAway;
         Hit hit{ray.tMax, {}, NONE, NONE};
         for (std::size_t i = 0; i < placed_.size(); ++i) {
-            const glm::dmat4 toObject = glm::inverse(glm::dmat4(placed_[i].toWorld));
+            const glm::dmat4& toObject = toObject_[i];
             const glm::dvec3 origin(toObject * glm::dvec4(ray.origin, 1)), direction(toObject * glm::dvec4(ray.direction, 0));
             const auto& mesh = meshes_[placed_[i].mesh];
             const Level& level = mesh[std::min<std::size_t>(placed_[i].level, mesh.size() - 1)];
@@ -134,6 +131,7 @@ private:
     };
     std::vector<std::vector<Level>> meshes_;
     std::vector<Placed> placed_;
+    std::vector<glm::dmat4> toObject_;  ///< parallel to placed_
     std::vector<BvhNode> nodes_;
     std::vector<BvhTriangle> triangles_;
     std::vector<uint> roots_;
@@ -158,7 +156,8 @@ protected:
         if (device_->facts().isLavapipe && device_->facts().subgroupSize == 8) bodies_.push_back({"packet", pipeline("TRACE_PACKET")});
     }
     void TearDown() override {
-        if (device_) EXPECT_EQ(device_->validationMessages(), std::vector<std::string>{});
+        if (!device_) return;
+        EXPECT_EQ(device_->validationMessages(), std::vector<std::string>{});
     }
 
     gpu::Pipeline pipeline(const char* body) {
@@ -235,7 +234,8 @@ std::vector<Ray> raysInto(Box box, std::size_t count, std::uint32_t seed) {
         if (!together || i % 64 == 0) eye = box.low + size * draws.point(-0.5f, 1.5f);
         const glm::vec3 target = box.low + size * (together ? 0.5f + 0.1f * draws.point(-1, 1) : draws.point());
         const float length = draws.number(0.25f, 4);
-        rays.push_back({eye, 0, length * glm::normalize(target - eye), farAway});
+        // From a distance on where 1e-4 of it is more than what rounding in the grid comes to.
+        rays.push_back({eye, 0.02f * glm::length(size) / length, length * glm::normalize(target - eye), farAway});
         if (i % 5 == 0) rays.back().tMax = glm::length(target - eye) / length;
         if (i % 7 == 0) rays.back().direction[int(i % 3)] = 0;
         if (i % 11 == 0) rays.back().tMax = -1;
@@ -255,18 +255,18 @@ glm::mat4 placement(Draws& draws) {
 
 TEST_F(TraceAgreement, OneMesh) {
     TraceScene scene;
-    scene.addMesh({randomSoup(1, 2000, 0.1f)});
+    scene.addMesh({randomSoup(1, 1000, 0.1f)});
     scene.place(0, glm::mat4(1));
-    expectAgreement(scene, raysInto({glm::vec3(0), glm::vec3(1)}, 20000, 2));
+    expectAgreement(scene, raysInto({glm::vec3(0), glm::vec3(1)}, 10000, 2));
 }
 
 TEST_F(TraceAgreement, LargeTrianglesFarFromTheOrigin) {
-    Soup soup = randomSoup(3, 500, 1.0f);
+    Soup soup = randomSoup(3, 300, 1.0f);
     for (glm::vec3& p : soup.positions) p = p * 10.0f + glm::vec3(1000, -2000, 500);
     TraceScene scene;
     scene.addMesh({soup});
     scene.place(0, glm::mat4(1));
-    expectAgreement(scene, raysInto({{1000, -2000, 500}, {1010, -1990, 510}}, 20000, 4));
+    expectAgreement(scene, raysInto({{1000, -2000, 500}, {1010, -1990, 510}}, 10000, 4));
 }
 
 // Levels are read while rays travel: switching them changes what is hit and rebuilds nothing.
@@ -285,12 +285,12 @@ TEST_F(TraceAgreement, InstancesWithSwitchedLevels) {
 
 TEST_F(TraceAgreement, MasksLetRaysThrough) {
     TraceScene scene;
-    scene.addMesh({randomSoup(12, 1500, 0.15f)}, 3);
+    scene.addMesh({randomSoup(12, 800, 0.15f)}, 3);
     scene.addMesh({randomSoup(13, 4, 1.0f)}, 1);
     Draws draws(14);
     scene.place(0, glm::mat4(1));
     for (int i = 0; i < 6; ++i) scene.place(1, placement(draws));
-    expectAgreement(scene, raysInto({glm::vec3(-0.5f), glm::vec3(1.5f)}, 20000, 15));
+    expectAgreement(scene, raysInto({glm::vec3(-0.5f), glm::vec3(1.5f)}, 10000, 15));
 }
 
 TEST_F(TraceAgreement, WhatCannotBeHitIsNotHit) {
@@ -332,7 +332,7 @@ TEST_F(TraceAgreement, DeepTrees) {
     TraceScene scene;
     scene.addMesh({chain});
     for (int i = 0; i < 40; ++i) {
-        const float size = std::ldexp(1.0f, -i / 2);
+        const float size = std::pow(0.7f, float(i));
         glm::mat4 place(size);
         place[3] = glm::vec4(size, 0, 0, 1);
         scene.place(0, place);

@@ -68,9 +68,8 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
         } else {
             instance = current & 0x1fffffffu;
             TraceInstance record = LaneInstances(w.traceInstances).at[instance];
-            mat4x3 toGrid = transpose(mat3x4(record.toGrid[0], record.toGrid[1], record.toGrid[2]));
-            origin = toGrid * vec4(ray.origin, 1.0);
-            direction = toGrid * vec4(ray.direction, 0.0);  // its length changes with the space, so t means the same in both
+            origin = pointToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.origin);
+            direction = directionToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.direction);
             slope = inverseOf(direction);
             offset = -origin * slope;
             stack[size++] = REF_BACK;

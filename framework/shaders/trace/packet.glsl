@@ -55,13 +55,12 @@ void testLeafOfOne(World w, uint leaf, GridRay r, uint lone, inout Packet p) {
     take(p, key < (KEY_MISS & ~3) && packetLane() == lone, m, first + winner);
 }
 
-// The packet's rays in an instance's grid. Directions keep their length through the change of space, so t means the same in both.
+// The packet's rays in an instance's grid.
 GridRay enterInstance(Spread record, vec3 origin, vec3 direction) {
     vec4 x = vec4(numberOf(record, 0u), numberOf(record, 1u), numberOf(record, 2u), numberOf(record, 3u));
     vec4 y = vec4(numberOf(record, 4u), numberOf(record, 5u), numberOf(record, 6u), numberOf(record, 7u));
     vec4 z = vec4(numberOf(record, 8u), numberOf(record, 9u), numberOf(record, 10u), numberOf(record, 11u));
-    return gridRay(vec3(dot(x.xyz, origin) + x.w, dot(y.xyz, origin) + y.w, dot(z.xyz, origin) + z.w),
-                   vec3(dot(x.xyz, direction), dot(y.xyz, direction), dot(z.xyz, direction)), vec3(0.0), vec3(1.0));
+    return gridRay(pointToGrid(x, y, z, origin), directionToGrid(x, y, z, direction), vec3(0.0), vec3(1.0));
 }
 
 Hit traceRay(World w, Ray ray, bool anyHit) {

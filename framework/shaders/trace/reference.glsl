@@ -18,6 +18,14 @@ vec3 inverseOf(vec3 direction) {
 uint firstTriangle(uint leaf) { return leaf & 0x07ffffffu; }
 uint lastTriangle(uint leaf) { return firstTriangle(leaf) + ((leaf >> 28) & 3u); }
 
+// A world-space point and direction in the grid of an instance (world/world.h, TraceInstance). The direction's length changes with the space,
+// so t means the same in both.
+vec3 pointToGrid(vec4 x, vec4 y, vec4 z, vec3 point) {
+    vec3 p = point - vec3(x.w, y.w, z.w);
+    return vec3(dot(x.xyz, p), dot(y.xyz, p), dot(z.xyz, p));
+}
+vec3 directionToGrid(vec4 x, vec4 y, vec4 z, vec3 d) { return vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d)); }
+
 // The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing. Without triangles: straight back.
 uint rootOf(World w, uint instance, uint mesh) {
     uint root = w.roots.at[mesh * LEVELS + w.levels.at[instance]];

@@ -35,7 +35,9 @@ struct InstanceRecord {
 };
 const uint INSTANCE_MIRRORED = 1u;  // the transform turns triangles inside out
 
-// The same instance as traversal reads it: world space to the mesh's 16-bit box grid. 64 bytes, loaded by 8 lanes.
+// The same instance as traversal reads it: world space to the mesh's 16-bit box grid. With the grid's base in world space, b = (row0.w, row1.w,
+// row2.w), a point p maps to (dot(row0.xyz, p - b), ...): subtracted first, so that precision doesn't depend on how far from the origin
+// the instance is. 64 bytes, loaded by 8 lanes.
 struct TraceInstance {
     vec4 toGrid[3];
     uint mesh;
