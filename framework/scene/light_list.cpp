@@ -2,6 +2,7 @@
 #include <framework/scene/light_list.h>
 
 #include <framework/scene/alias_table.h>
+#include <framework/scene/shading_frame.h>
 
 #include <glm/gtc/constants.hpp>
 
@@ -25,12 +26,6 @@ glm::vec3 texelAt(const Texture& texture, glm::vec2 uv) {
     const int y = std::min(texture.height - 1, int(wrapped.y * float(texture.height)));
     const std::uint8_t* texel = &texture.rgba[4 * (std::size_t(y) * std::size_t(texture.width) + std::size_t(x))];
     return {decodeSrgb(texel[0]), decodeSrgb(texel[1]), decodeSrgb(texel[2])};
-}
-
-glm::vec2 transformUv(const TextureSlot& slot, glm::vec2 uv) {
-    const float c = std::cos(slot.rotation), s = std::sin(slot.rotation);
-    const glm::vec2 scaled = uv * slot.scale;
-    return slot.offset + glm::vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y);
 }
 
 /// Mean emitted luminance of a triangle: its texture at points spread over it, and a floor so that no lit texel is out of reach.
