@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/light_list.h>
 
+#include <framework/image/srgb.h>
 #include <framework/scene/alias_table.h>
 #include <framework/scene/shading_frame.h>
 
@@ -14,18 +15,13 @@ namespace {
 
 float luminance(glm::vec3 c) { return glm::dot(c, glm::vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-float decodeSrgb(std::uint8_t byte) {
-    const float c = float(byte) / 255.0f;
-    return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-}
-
 /// Texel at uv by the nearest-texel rule with repetition: good enough for a sampling weight.
 glm::vec3 texelAt(const Texture& texture, glm::vec2 uv) {
     const glm::vec2 wrapped = uv - glm::floor(uv);
     const int x = std::min(texture.width - 1, int(wrapped.x * float(texture.width)));
     const int y = std::min(texture.height - 1, int(wrapped.y * float(texture.height)));
     const std::uint8_t* texel = &texture.rgba[4 * (std::size_t(y) * std::size_t(texture.width) + std::size_t(x))];
-    return {decodeSrgb(texel[0]), decodeSrgb(texel[1]), decodeSrgb(texel[2])};
+    return {decodeSrgb(float(texel[0]) / 255), decodeSrgb(float(texel[1]) / 255), decodeSrgb(float(texel[2]) / 255)};
 }
 
 /// Mean emitted luminance of a triangle: its texture at points spread over it, and a floor so that no lit texel is out of reach.

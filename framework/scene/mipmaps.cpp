@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: MIT
+#include <framework/image/srgb.h>
 #include <framework/scene/mipmaps.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 
 namespace lodestir {
 namespace {
 
-const std::array<float, 256>& srgbTable() {
+const std::array<float, 256>& decodedBytes() {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> values{};
-        for (std::size_t i = 0; i < 256; ++i) {
-            const float c = float(i) / 255.0f;
-            values[i] = c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f);
-        }
+        for (std::size_t i = 0; i < 256; ++i) values[i] = decodeSrgb(float(i) / 255);
         return values;
     }();
     return table;
 }
 
-std::uint8_t encodeSrgb(float linear) {
-    const float c = linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-    return std::uint8_t(std::clamp(c, 0.0f, 1.0f) * 255.0f + 0.5f);
-}
+std::uint8_t encodedByte(float linear) { return std::uint8_t(std::clamp(encodeSrgb(linear), 0.0f, 1.0f) * 255 + 0.5f); }
 
 }  // namespace
 
@@ -47,11 +41,11 @@ std::uint32_t appendMipmaps(const Texture& texture, std::vector<std::uint32_t>& 
                     for (int k = 0; k < 4; ++k) {
                         const int sx = std::min(width - 1, 2 * x + (k & 1)), sy = std::min(height - 1, 2 * y + (k >> 1));
                         const std::uint8_t byte = std::uint8_t(texels[from + std::size_t(sy) * std::size_t(width) + std::size_t(sx)] >> (8 * c));
-                        sum += srgbTable()[byte];
+                        sum += decodedBytes()[byte];
                         plain += byte;
                     }
                     const bool curved = texture.srgb && c < 3;
-                    out |= std::uint32_t(curved ? encodeSrgb(0.25f * sum) : std::uint8_t((plain + 2) / 4)) << (8 * c);
+                    out |= std::uint32_t(curved ? encodedByte(0.25f * sum) : std::uint8_t((plain + 2) / 4)) << (8 * c);
                 }
                 texels[to + std::size_t(y) * std::size_t(w) + std::size_t(x)] = out;
             }

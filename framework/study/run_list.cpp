@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include <framework/study/run_list.h>
+
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+
+namespace lodestir {
+namespace {
+
+/// Every combination of a technique's knob values, the last knob fastest.
+std::vector<std::vector<StudySetting>> combinations(const Technique& technique) {
+    std::vector<std::vector<StudySetting>> all{{}};
+    for (const Knob& knob : technique.vary) {
+        std::vector<std::vector<StudySetting>> longer;
+        for (const auto& combination : all)
+            for (const Json& value : knob.values) {
+                longer.push_back(combination);
+                longer.back().push_back({knob.name, value});
+            }
+        all = std::move(longer);
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<StudyRun> expandRuns(const Study& study) {
+    std::vector<StudyRun> runs;
+    for (std::size_t scene = 0; scene < study.scenes.size(); ++scene)
+        for (const std::uint32_t seed : study.seeds)
+            for (std::size_t technique = 0; technique < study.techniques.size(); ++technique)
+                for (auto& knobs : combinations(study.techniques[technique])) runs.push_back({scene, technique, std::move(knobs), seed});
+    return runs;
+}
+
+nlohmann::ordered_json knobJson(const std::vector<StudySetting>& knobs) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    for (const StudySetting& knob : knobs) json[knob.name] = knob.value.plain();
+    return json;
+}
+
+Shard readShard(const std::string& text) {
+    Shard shard;
+    const char* end = text.data() + text.size();
+    const auto [slash, good] = std::from_chars(text.data(), end, shard.index);
+    if (good == std::errc() && slash != end && *slash == '/') {
+        const auto [rest, also] = std::from_chars(slash + 1, end, shard.count);
+        if (also == std::errc() && rest == end && shard.index >= 1 && shard.index <= shard.count) return shard;
+    }
+    throw Error("\"" + text + "\" is no shard", "write 1/4, 2/4, 3/4 and 4/4 for the four parts of a study");
+}
+
+}  // namespace lodestir

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// What a study renders: one run for each scene, technique, combination of knob values, and seed.
+#pragma once
+#include <framework/study/study_file.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace lodestir {
+
+struct StudyRun {
+    std::size_t scene = 0, technique = 0;  ///< indices into the study
+    std::vector<StudySetting> knobs;       ///< one of each of the technique's knobs
+    std::uint32_t seed = 0;
+};
+
+/// Scene by scene, so that each is loaded once; within a scene seed by seed, so that a machine that grows slow or busy slows all techniques alike.
+std::vector<StudyRun> expandRuns(const Study& study);
+
+/// {"trace.spp": 4}
+nlohmann::ordered_json knobJson(const std::vector<StudySetting>& knobs);
+
+/// Every `count`th run, for several machines at work on one study.
+struct Shard {
+    std::size_t index = 1, count = 1;  ///< index counts from 1
+    bool holds(std::size_t run) const { return run % count == index - 1; }
+};
+/// "2/8". Error when it is none.
+Shard readShard(const std::string& text);
+
+}  // namespace lodestir

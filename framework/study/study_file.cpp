@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include <framework/image/metrics.h>
+#include <framework/scene/fields.h>
+#include <framework/study/study_file.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace lodestir {
+namespace {
+
+const std::vector<std::string> chartNames{"error_vs_time", "error_vs_rays", "error_vs_frame", "time_by_pass", "stability"};
+
+/// Seeds above are kept for references, so that none is ever compared with itself.
+constexpr int maxSeed = std::numeric_limits<int>::max();
+constexpr int maxFrame = 1'000'000'000, maxSeedCount = 100'000, maxReferenceSamples = 1 << 24;
+
+class StudyReader {
+public:
+    explicit StudyReader(const Path& file) : json_(Json::load(file)) { study_.file = file; }
+
+    Study read() {
+        Fields fields(json_, "the study", problems_);
+        fields.allow({"$schema"});
+        int format = 1;
+        if (fields.require("format")) fields.integer("format", format, 1, 1);
+        fields.text("about", study_.about);
+        readScenes(fields.require("scenes"));
+        attempt([&] { readSize(fields.find("size")); });
+        attempt([&] { readSeeds(fields.require("seeds")); });
+        study_.measure = {0};
+        if (const Json* frames = fields.find("frames")) readFrames(*frames);
+        if (const Json* reference = fields.require("reference")) readReference(*reference);
+        readTechniques(fields.require("techniques"));
+        study_.metrics = readNames(fields.find("metrics"), "metric", metricNames(), {"relmse", "mse"});
+        study_.charts = readNames(fields.find("charts"), "chart", chartNames, chartNames);
+        refuse(fields.find("mask"), "errors inside a mask are not measured", "leave \"mask\" out to measure whole frames");
+        std::size_t kind = 0;
+        fields.choice("kind", kind, {"error", "ensemble"});
+        if (kind == 1) refuse(fields.find("kind"), "ensemble studies are not run", "leave \"kind\" out to measure errors");
+        fields.finish();
+        problems_.raise();
+        return std::move(study_);
+    }
+
+private:
+    template <class F> void attempt(const F& part) {
+        try {
+            part();
+        } catch (const Error& error) {
+            problems_.add(error);
+        }
+    }
+    void refuse(const Json* value, const char* what, const char* hint) {
+        if (value) problems_.add(value->where(), what, hint);
+    }
+    static std::int64_t within(const Json& value, const std::string& what, std::int64_t low, std::int64_t high) {
+        const std::int64_t number = value.asInt(what);
+        if (number < low || number > high) throw Error(value.where(), fmt::format("{} must be {}..{}, not {}", what, low, high, number));
+        return number;
+    }
+    Path resolve(const Json& value, const std::string& what) const {
+        const Path path = value.asString(what);
+        const Path whole = path.is_absolute() ? path : (study_.file.parent_path() / path).lexically_normal();
+        if (!std::filesystem::is_regular_file(whole)) throw Error(value.where(), fmt::format("there is no file {}", whole.string()));
+        return whole;
+    }
+
+    void readScenes(const Json* scenes) {
+        attempt([&] {
+            if (!scenes) return;
+            if (scenes->items("\"scenes\"").empty()) throw Error(scenes->where(), "the study has no scenes");
+            for (const Json& item : scenes->items())
+                attempt([&] {
+                    const Path file = resolve(item, "a scene");
+                    const std::string name = file.stem().string();
+                    if (std::ranges::find(study_.scenes, name, &StudyScene::name) != study_.scenes.end())
+                        throw Error(item.where(), fmt::format("two scenes are named \"{}\"", name));
+                    study_.scenes.push_back({name, file, item.where()});
+                });
+        });
+    }
+
+    void readSize(const Json* size) {
+        if (!size) return;
+        if (size->items("\"size\"").size() != 2) throw Error(size->where(), "\"size\" must be [width, height], in pixels");
+        for (int i = 0; i < 2; ++i) study_.size[i] = std::uint32_t(within(size->items()[std::size_t(i)], i == 0 ? "the width" : "the height", 1, 16384));
+    }
+
+    void readSeeds(const Json* seeds) {
+        if (!seeds) return;
+        if (seeds->isArray()) {
+            for (const Json& item : seeds->items()) {
+                const auto seed = std::uint32_t(within(item, "a seed", 0, maxSeed));
+                if (std::ranges::find(study_.seeds, seed) != study_.seeds.end()) throw Error(item.where(), fmt::format("the seed {} is given twice", seed));
+                study_.seeds.push_back(seed);
+            }
+            if (study_.seeds.empty()) throw Error(seeds->where(), "there are no seeds");
+            return;
+        }
+        const std::int64_t count = within(*seeds, "the number of seeds", 1, maxSeedCount);
+        for (std::uint32_t seed = 1; seed <= count; ++seed) study_.seeds.push_back(seed);
+    }
+
+    void readFrames(const Json& value) {
+        Fields frames(value, "\"frames\"", problems_);
+        frames.integer("warmup", study_.warmup, 0, maxFrame);
+        study_.event = study_.warmup;
+        frames.integer("event", study_.event, 0, maxFrame);
+        if (study_.event < study_.warmup)
+            problems_.add(value.where(), fmt::format("{} frames of warm-up don't fit before frame {}", study_.warmup, study_.event));
+        attempt([&] {
+            const Json* measure = frames.find("measure");
+            if (!measure) return;
+            study_.measure.clear();
+            for (const Json& item : measure->items("\"measure\"")) {
+                const int offset = int(within(item, "a measured frame", -study_.warmup, maxFrame));
+                if (std::ranges::find(study_.measure, offset) != study_.measure.end())
+                    throw Error(item.where(), fmt::format("frame {} is measured twice", offset));
+                study_.measure.push_back(offset);
+            }
+            if (study_.measure.empty()) throw Error(measure->where(), "no frame is measured");
+            std::ranges::sort(study_.measure);
+        });
+        frames.finish();
+    }
+
+    void readGraph(Fields& fields, StudyGraph& graph) {
+        const Json* file = fields.require("graph");
+        if (file) graph.where = file->where();
+        if (file) attempt([&] { graph.graph = resolve(*file, "\"graph\""); });
+        if (const Json* variant = fields.find("variant")) attempt([&] { graph.variant = variant->asString("\"variant\""); });
+        fields.text("port", graph.port);
+        if (const Json* set = fields.find("set"))
+            attempt([&] {
+                for (const auto& [name, setting] : set->members("\"set\"")) graph.set.push_back({checkedName(name, setting), setting});
+            });
+    }
+    static std::string checkedName(const std::string& name, const Json& value) {
+        const std::size_t dot = name.find('.');
+        if (dot == 0 || dot == name.npos || dot + 1 == name.size() || name.find('=') != name.npos)
+            throw Error(value.keyWhere(), fmt::format("\"{}\" names no parameter", name), "write \"pass.parameter\"");
+        if (name.starts_with("frame."))
+            throw Error(value.keyWhere(), fmt::format("\"{}\" belongs to the whole study", name), "size, seeds and frames stand beside \"techniques\"");
+        if (value.isArray() || value.isObject() || value.isNull())
+            throw Error(value.where(), fmt::format("a parameter's value can't be {}", value.kindName()), "lists of values stand in \"vary\"");
+        return name;
+    }
+
+    void readReference(const Json& value) {
+        Fields fields(value, "the reference", problems_);
+        readGraph(fields, study_.reference);
+        if (const Json* samples = fields.require("spp"))
+            attempt([&] {
+                study_.referenceSamples = int(within(*samples, "the reference's \"spp\"", 2, maxReferenceSamples));
+                if (study_.referenceSamples % 2 != 0) throw Error(samples->where(), "the reference's \"spp\" must be even", "it is rendered in two halves");
+            });
+        fields.finish();
+    }
+
+    void readTechniques(const Json* techniques) {
+        attempt([&] {
+            if (!techniques) return;
+            if (techniques->members("\"techniques\"").empty()) throw Error(techniques->where(), "the study has no techniques");
+            for (const auto& [name, value] : techniques->members()) {
+                Fields fields(value, fmt::format("technique \"{}\"", name), problems_);
+                Technique technique{.name = name};
+                readGraph(fields, technique.graph);
+                if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
+                fields.finish();
+                study_.techniques.push_back(std::move(technique));
+            }
+        });
+    }
+
+    void readVary(const Json& vary, Technique& technique) {
+        for (const auto& [name, values] : vary.members("\"vary\""))
+            attempt([&] {
+                if (values.items(fmt::format("\"{}\"", name)).empty()) throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
+                if (std::ranges::find(technique.graph.set, name, &StudySetting::name) != technique.graph.set.end())
+                    throw Error(values.keyWhere(), fmt::format("\"{}\" is set and varied", name), "remove one of them");
+                Knob knob{.name = name};
+                for (const Json& item : values.items()) {
+                    checkedName(name, item);
+                    if (std::ranges::any_of(knob.values, [&](const Json& v) { return v.dump(-1) == item.dump(-1); }))
+                        throw Error(item.where(), fmt::format("\"{}\" takes {} twice", name, item.dump(-1)));
+                    knob.values.push_back(item);
+                }
+                technique.vary.push_back(std::move(knob));
+            });
+    }
+
+    std::vector<std::string> readNames(const Json* value, const std::string& what, const std::vector<std::string>& known, std::vector<std::string> names) {
+        if (!value) return names;
+        names.clear();
+        attempt([&] {
+            for (const Json& item : value->items(fmt::format("\"{}s\"", what)))
+                attempt([&] {
+                    const std::string& name = item.asString("a " + what);
+                    if (std::ranges::find(known, name) == known.end())
+                        throw Error(item.where(), fmt::format("unknown {} \"{}\"", what, name), didYouMean(name, known));
+                    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+                });
+            if (what == "metric" && value->items().empty()) throw Error(value->where(), "no metric is measured");
+        });
+        return names;
+    }
+
+    Json json_;
+    Study study_;
+    Problems problems_;
+};
+
+}  // namespace
+
+Study loadStudy(const Path& file) { return StudyReader(file).read(); }
+
+}  // namespace lodestir

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// A study file as it was written: which techniques run on which scenes, what is measured, and what it is judged by. No GPU, no plugins.
+#pragma once
+#include <framework/core/files.h>
+#include <framework/core/json.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lodestir {
+
+/// "pass.parameter" and a value, with its place.
+struct StudySetting {
+    std::string name;
+    Json value;
+};
+
+/// A graph with changes, and the image port of it that is measured.
+struct StudyGraph {
+    Path graph;
+    std::optional<std::string> variant;
+    std::vector<StudySetting> set;
+    std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
+    Where where;       ///< of the graph's name
+};
+
+/// A parameter that takes several values.
+struct Knob {
+    std::string name;  ///< "pass.parameter"
+    std::vector<Json> values;
+};
+
+struct Technique {
+    std::string name;
+    StudyGraph graph;
+    std::vector<Knob> vary;  ///< every combination is run; charts draw a curve along the last one
+};
+
+struct StudyScene {
+    std::string name;  ///< of the file, without its ending
+    Path file;
+    Where where;
+};
+
+struct Study {
+    Path file;
+    std::string about;
+    std::vector<StudyScene> scenes;
+    glm::uvec2 size{480, 270};  ///< pixels
+    std::vector<std::uint32_t> seeds;
+    int warmup = 0;              ///< frames rendered before the event
+    int event = 0;               ///< frame of the scene; where the file names none, `warmup`
+    std::vector<int> measure;    ///< frames after the event (negative: before), rising
+    StudyGraph reference;
+    int referenceSamples = 0;    ///< a pixel, both halves together
+    std::vector<Technique> techniques;
+    std::vector<std::string> metrics, charts;
+};
+
+/// Reads a study file; paths start from its folder. Throws Error with everything that is wrong with its form.
+Study loadStudy(const Path& file);
+
+}  // namespace lodestir
