@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// If these fail, base and shifted paths reconnect at different vertices: light near the thresholds is counted twice or not at all.
+// groups: 64
+#version 460
+#include "base/random.glsl"
+#include "base/test.glsl"
+#include "restir/criteria.glsl"
+layout(local_size_x = 64) in;
+
+const uint VERTICES = 8u;  // x_1 .. x_8; x_8 is an emitter
+
+void main() {
+    uint id = gl_GlobalInvocationID.x;
+    ConnectionCriteria c = ConnectionCriteria(0.2, 0.1);
+    // k against its definition: the least j whose pair is rough at both ends and far enough apart.
+    float roughness[VERTICES + 1u], distance[VERTICES + 1u];
+    for (uint j = 1u; j <= VERTICES; ++j) {
+        vec2 u = random2(uvec2(id, 3), j, 0u);
+        roughness[j] = u.x < 0.3 ? 0.0 : u.x * u.x;
+        distance[j] = u.y * 0.3;
+    }
+    uint k = 0u, expected = 0u;
+    for (uint j = 2u; j < VERTICES; ++j) k = firstConnection(k, j, surfaceConnectable(c, roughness[j - 1u], roughness[j], distance[j]));
+    k = firstConnection(k, VERTICES, emitterConnectable(c, roughness[VERTICES - 1u], distance[VERTICES]));
+    for (uint j = VERTICES; j >= 2u; --j)
+        if (roughness[j - 1u] >= 0.2 && distance[j] >= 0.1 && (roughness[j] >= 0.2 || j == VERTICES)) expected = j;
+    EXPECT_EQ(k, expected);
+    if (id > 0u) return;
+    EXPECT_EQ(surfaceConnectable(c, 0.2, 0.2, 0.1), true);  // the thresholds themselves are in
+    EXPECT_EQ(surfaceConnectable(c, 0.19, 1.0, 5.0), false);
+    EXPECT_EQ(surfaceConnectable(c, 1.0, 0.19, 5.0), false);
+    EXPECT_EQ(surfaceConnectable(c, 1.0, 1.0, 0.09), false);
+    EXPECT_EQ(emitterConnectable(c, 0.2, 0.1), true);
+    EXPECT_EQ(emitterConnectable(c, 0.2, 0.09), false);
+    EXPECT_EQ(emitterConnectable(c, 0.1, 1.0), false);
+    EXPECT_EQ(environmentConnectable(c, 0.2), true);
+    EXPECT_EQ(environmentConnectable(c, 0.1), false);
+    ConnectionCriteria all = ConnectionCriteria(0.0, 0.0);  // only delta lobes are left out
+    EXPECT_EQ(surfaceConnectable(all, 1e-3, 1e-3, 0.0), true);
+    EXPECT_EQ(surfaceConnectable(all, 0.0, 1.0, 1.0), false);
+    EXPECT_EQ(surfaceConnectable(all, 1.0, 0.0, 1.0), false);
+    EXPECT_EQ(environmentConnectable(all, 0.0), false);
+    EXPECT_EQ(firstConnection(3u, 5u, true), 3u);
+    EXPECT_EQ(firstConnection(0u, 5u, false), 0u);
+}
