@@ -7,11 +7,13 @@
 #include <framework/app/passes_command.h>
 #include <framework/app/run_command.h>
 #include <framework/app/scene_command.h>
+#include <framework/app/study_command.h>
 #include <framework/core/error.h>
 
 #include <CLI/CLI.hpp>
 #include <lodestir/revision.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 
@@ -21,7 +23,7 @@ int runProgram(int argc, char** argv) {
     CLI::App app("Lodestir: render graphs of exchangeable passes for real-time path tracing across levels of detail.", "lodestir");
     app.set_version_flag("--version", std::string(LODESTIR_VERSION) + " (" + LODESTIR_REVISION + ")");
     app.require_subcommand(1);
-    app.failure_message(CLI::FailureMessage::help);
+    app.failure_message(CLI::FailureMessage::simple);
     std::function<int()> run;
     addRun(app, run);
     addCompare(app, run);
@@ -29,6 +31,13 @@ int runProgram(int argc, char** argv) {
     addCheck(app, run);
     addScene(app, run);
     addDevices(app, run);
+    addStudy(app, run);
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+    if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, std::string_view(argv[1])) == names.end()) {
+        std::fprintf(stderr, "lodestir: no command \"%s\"; %s\n", argv[1], didYouMean(argv[1], names).c_str());
+        return 2;
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -41,6 +50,8 @@ int runProgram(int argc, char** argv) {
         return 2;
     } catch (const Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr, "lodestir: out of memory\n");
     } catch (const std::exception& error) {
         std::fprintf(stderr, "lodestir: %s\n", error.what());
     }

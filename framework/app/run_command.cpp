@@ -43,7 +43,21 @@ void requireFinite(const ImageData& image, const std::string& name) {
                     std::to_string(first % std::size_t(image.width)) + ", " + std::to_string(first / std::size_t(image.width)) + ")");
 }
 
+/// Sample i of a pixel is the same whether it belongs to frame i or to a frame of many samples: a reference with this seed shares its noise.
+void warnOfSameSeed(const Path& reference, std::uint32_t seed) {
+    if (reference.extension() != ".exr") return;
+    const auto attributes = readExrFile(reference).attributes;
+    const auto header = attributes.find("lodestir");
+    if (header == attributes.end()) return;
+    const Json graph = Json::parse(header->second, reference.string());
+    const Json* frame = graph.find("frame");
+    const Json* used = frame ? frame->find("seed") : nullptr;
+    if (used && used->isNumber() && used->asInt() == std::int64_t(seed))
+        log::warn("{}: rendered with the same seed ({}), so it shares this image's noise and errors come out too small; give another --seed", reference.string(), seed);
+}
+
 int runGraph(const RunOptions& options) {
+    if (options.out.empty()) throw Error("--out names no folder");
     const auto start = std::chrono::steady_clock::now();
     Session session(options.session);
     Graph& graph = session.graph();
@@ -53,6 +67,9 @@ int runGraph(const RunOptions& options) {
     const std::string shown = graph.nameOf(graph.show), resolved = graph.resolved().dump(-1);
     const std::string shownName = graph.description.showPort.empty() ? graph.description.showNode : shown;
     const bool shownIsImage = graph.port(graph.show).type.kind == PortType::Kind::image;
+    if (!shownIsImage && (reference || options.checkNan))
+        throw Error(graph.description.showWhere, "the shown port " + shown + " is no image", "--reference and --check-nan need one; see --show");
+    if (reference) warnOfSameSeed(options.reference, graph.description.seed);
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
     const int count = graph.description.count;

@@ -73,6 +73,9 @@ void refuseGitLfsPointer(const Path& path, std::string_view content) {
 }
 
 template <class Bytes> Bytes readWhole(const Path& path) {
+    std::error_code none;
+    const fs::file_status status = fs::status(path, none);
+    if (fs::is_character_file(status) || fs::is_block_file(status)) throw Error(Where{path.string()}, "cannot be read: it is a device, which may never end");
     File file(path, O_RDONLY);
     if (!file.isOpen()) file.fail("cannot be read", errno);
     Bytes bytes;

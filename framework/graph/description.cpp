@@ -83,7 +83,15 @@ void applyAssignment(Json& source, const std::string& text) {
             assignment.name == "size" ? readSizeText(std::move(assignment.value)) : std::move(assignment.value);
         return;
     }
+    // The pass "scene" is there without being named; what is set on it names it. First, as it would be implied.
     const Json* passes = source.find("passes");
+    if (assignment.node == "scene" && passes && passes->isObject() && !passes->find("scene")) {
+        Json withScene = Json::object();
+        withScene["scene"]["type"] = "scene";
+        for (const auto& [name, pass] : passes->members()) withScene[name] = pass;
+        source["passes"] = std::move(withScene);
+        passes = source.find("passes");
+    }
     if (!passes || !passes->find(assignment.node) || !passes->find(assignment.node)->isObject()) {
         throw Error(where, "no pass \"" + assignment.node + "\"", didYouMean(assignment.node, keysOf(passes)));
     }

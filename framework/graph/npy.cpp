@@ -45,7 +45,8 @@ std::string structText(std::span<const StructField> fields, std::size_t size) {
         fillTo(field.offset);
         const NumberType number = numberType(field.type);
         const std::vector<std::size_t> axes = axesOf(field);
-        text += (text.size() > 1 ? ", ('" : "('") + field.name + "', " + (number.kind ? scalarText(number) : structText(field.members, field.size));
+        text += (text.size() > 1 ? ", ('" : "('") + field.name + "', " +
+                (number.kind ? scalarText(number) : structText(field.members, field.size));
         if (!axes.empty()) text += ", " + tupleText(axes);
         text += ")";
         end = field.offset + field.size * std::max<std::size_t>(field.count, 1);
@@ -61,11 +62,12 @@ void writeNpy(const Path& path, std::span<const std::byte> bytes, std::span<cons
     const std::size_t end = fields.empty() ? 0 : fields.back().offset + fields.back().size * std::max<std::size_t>(fields.back().count, 1);
     const std::size_t element = count ? bytes.size() / count : end;
     if (fields.empty() || element < end || bytes.size() != element * count)
-        throw Error(Where{path.string()}, std::to_string(bytes.size()) + " bytes are no array of shape " + tupleText(shape) + " of elements of " +
-                                              std::to_string(end) + " bytes");
+        throw Error(Where{path.string()}, std::to_string(bytes.size()) + " bytes are no array of shape " + tupleText(shape) +
+                                              " of elements of " + std::to_string(end) + " bytes");
 
     const bool plain = fields.size() == 1 && fields[0].name.empty();
-    if (plain && element != end) throw Error(Where{path.string()}, "elements of " + std::to_string(element) + " bytes are no " + fields[0].type);
+    if (plain && element != end)
+        throw Error(Where{path.string()}, "elements of " + std::to_string(element) + " bytes are no " + fields[0].type);
     std::vector<std::size_t> axes(shape.begin(), shape.end());
     if (plain)
         for (const std::size_t axis : axesOf(fields[0])) axes.push_back(axis);

@@ -15,7 +15,9 @@ std::vector<std::string> nodeNames(const std::vector<GraphNode>& nodes) {
 }
 
 int onlyOutput(const GraphNode& node, const Where& where) {
-    const std::vector<std::string> outputs = portNames(*node.pass, isMade);
+    // What a pass keeps for itself is asked for by name where it has an output to give.
+    std::vector<std::string> outputs = portNames(*node.pass, [](const Port& port) { return port.role == Port::Role::out; });
+    if (outputs.empty()) outputs = portNames(*node.pass, isMade);
     if (outputs.size() == 1) return findPort(*node.pass, outputs[0], isMade);
     if (outputs.empty()) throw Error(where, fmt::format("pass \"{}\" has no output", node.name));
     throw Error(where, fmt::format("pass \"{}\" has {} outputs", node.name, outputs.size()),

@@ -158,7 +158,9 @@ private:
             if (d_.tokens[i + 1].text == name) return i + 3;
             known.push_back(d_.tokens[i + 1].text);
         }
-        throw Error(user, open_.size() < 2 ? "there is no struct \"" + name + "\" in " + header_ + " and what it includes" : "unknown type \"" + name + "\"",
+        throw Error(user,
+                    open_.size() < 2 ? "there is no struct \"" + name + "\" in " + header_ + " and what it includes"
+                                     : "unknown type \"" + name + "\"",
                     didYouMean(name, known));
     }
 
@@ -206,7 +208,8 @@ private:
             while (next() != ")") {}
             kind.type = "uint64_t";
         }
-        if (const NumberType number = numberType(kind.type); number.kind) return {number.bytes * number.rows * number.columns, number.bytes};
+        if (const NumberType number = numberType(kind.type); number.kind)
+            return {number.bytes * number.rows * number.columns, number.bytes};
         const std::size_t resume = at_;
         const Layout layout = read(kind.type, user, kind.members);
         at_ = resume;
@@ -256,7 +259,8 @@ NumberType numberType(std::string_view name) {
     return {};
 }
 
-std::vector<StructField> structFields(std::string_view name, const Path& header, const std::vector<Path>& folders, std::size_t expectedSize) {
+std::vector<StructField> structFields(std::string_view name, const Path& header, const std::vector<Path>& folders,
+                                      std::size_t expectedSize) {
     std::vector<StructField> fields;
     Layout layout;
     if (header.empty()) {
@@ -273,8 +277,10 @@ std::vector<StructField> structFields(std::string_view name, const Path& header,
         layout = StructReader(declarations, entry).read(std::string(name), Where{entry}, fields);
     }
     if (layout.size != expectedSize)
-        throw Error(Where{header.string()}, "the fields of \"" + std::string(name) + "\" take " + std::to_string(layout.size) + " bytes, the program has " +
-                                                std::to_string(expectedSize), "rebuild: the header may have changed since");
+        throw Error(Where{header.string()},
+                    "the fields of \"" + std::string(name) + "\" take " + std::to_string(layout.size) + " bytes, the program has " +
+                        std::to_string(expectedSize),
+                    "rebuild: the header may have changed since");
     return fields;
 }
 

@@ -21,7 +21,8 @@ struct StructField {
     std::vector<StructField> members;  ///< of a struct
 };
 
-/// A built-in type as numbers: `rows` of `columns` scalars, one after the other (a matrix column by column). rows is 1 for what is no matrix.
+/// A built-in type as numbers: `rows` of `columns` scalars, one after the other (a matrix column by column).
+/// rows is 1 for what is no matrix.
 struct NumberType {
     char kind = 0;          ///< 'f', 'i', 'u'
     std::size_t bytes = 0;  ///< of a scalar
@@ -35,6 +36,7 @@ LODESTIR_API NumberType numberType(std::string_view name);
 /// nameless field. Members that are addresses (LODESTIR_ADDRESS and its like) count as uint64_t.
 /// Error when the header can't be read, the struct isn't there, a member is of an unknown type, an array's length is neither a number nor
 /// a constant of the headers, or the fields don't make up `expectedSize` bytes.
-LODESTIR_API std::vector<StructField> structFields(std::string_view name, const Path& header, const std::vector<Path>& folders, std::size_t expectedSize);
+LODESTIR_API std::vector<StructField> structFields(std::string_view name, const Path& header, const std::vector<Path>& folders,
+                                                   std::size_t expectedSize);
 
 }  // namespace lodestir

@@ -46,7 +46,7 @@ glm::vec3 environmentIrradiance(const Environment& environment, glm::vec3 normal
 Environment loadEnvironmentMap(const Path& path, std::vector<std::string>& notes) {
     const ImageData image = readImage(path);
     if (image.channels < 3)
-        throw Error({path.string()},
+        throw Error(Where{path.string()},
                     fmt::format("an environment map needs red, green and blue, this image has {} channels", image.channels));
     Environment environment{.type = EnvironmentType::map, .width = image.width, .height = image.height};
     const std::size_t count = std::size_t(image.width) * std::size_t(image.height), channels = std::size_t(image.channels);

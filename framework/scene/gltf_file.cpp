@@ -45,10 +45,10 @@ std::uint32_t word(std::span<const std::byte> bytes, std::size_t offset) {
 }
 
 Container openBinary(std::span<const std::byte> bytes, const std::string& file) {
-    const auto fail = [&](const std::string& what) { throw Error({file}, "not a valid GLB file: " + what); };
+    const auto fail = [&](const std::string& what) { throw Error(Where{file}, "not a valid GLB file: " + what); };
     if (bytes.size() < 12) fail(fmt::format("{} bytes are less than its 12-byte header", bytes.size()));
     if (const std::uint32_t version = word(bytes, 4); version != 2) {
-        throw Error({file}, fmt::format("GLB version {} is not supported", version), "convert the model to glTF 2.0");
+        throw Error(Where{file}, fmt::format("GLB version {} is not supported", version), "convert the model to glTF 2.0");
     }
     const std::size_t length = word(bytes, 8);
     if (length > bytes.size()) fail(fmt::format("its header says {} bytes, the file has {}; it is cut short", length, bytes.size()));
@@ -197,7 +197,7 @@ void parseStructure(GltfFile& file) {
     if (good) return;
     std::replace(errors.begin(), errors.end(), '\n', ' ');
     while (errors.ends_with(' ')) errors.pop_back();
-    throw Error({file.path.string()}, "not valid glTF: " + (errors.empty() ? "its structure is not as the format demands" : errors));
+    throw Error(Where{file.path.string()}, "not valid glTF: " + (errors.empty() ? "its structure is not as the format demands" : errors));
 }
 
 }  // namespace
@@ -227,7 +227,7 @@ GltfFile readGltfFile(const Path& path) {
     if (file.binary) container = openBinary(bytes, path.string());
 
     file.json = Json::parse(container.text, path.string());
-    if (!file.json.isObject()) throw Error({path.string()}, fmt::format("a glTF file is a JSON object, this is {}", file.json.kindName()));
+    if (!file.json.isObject()) throw Error(Where{path.string()}, fmt::format("a glTF file is a JSON object, this is {}", file.json.kindName()));
     checkVersion(file);
     Problems problems;
     checkExtensions(file, problems);

@@ -3,24 +3,51 @@
 #include <framework/core/error.h>
 #include <framework/scene/camera.h>
 #include <framework/scene/gltf.h>
+#include <framework/scene/level_policy.h>
 #include <framework/scene/scene_file.h>
 #include <framework/scene/sky.h>
 
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 
 namespace lodestir {
 namespace {
 
-/// Is there anything made to light the rest? A texture that glows with no more than 1 is a display or a pilot lamp: it shows in the dark, but a
-/// model that has no other light was meant for a viewer that brings its own.
+/// Does the scene light itself? Lights do. Emissive triangles do where their light, spread over the sphere around the scene, would make a
+/// white surface brighter than 0.03; less is a display or a pilot lamp on a model that was meant for a viewer with a light of its own.
 bool hasLight(const Scene& scene) {
     if (!scene.lights.empty()) return true;
-    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
-        const float emission = std::max({m.emission.r, m.emission.g, m.emission.b});
-        return m.emissiveMap.texture == none ? emission > 0 : emission > 1;
-    });
+    const std::vector<glm::mat4> matrices = scene.nodeMatrices(0);
+    double power = 0;  // over pi
+    for (const Instance& instance : scene.instances) {
+        const MeshLevel& level = scene.meshes[instance.mesh].levels[0];
+        const glm::mat3 linear(matrices[instance.node]);
+        for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+            const Material& material = scene.materials[level.materials[t]];
+            if (material.emission == glm::vec3(0)) continue;
+            const glm::uvec3 v = level.triangles[t];
+            const glm::vec3 normal = glm::cross(linear * (level.positions[v.y] - level.positions[v.x]), linear * (level.positions[v.z] - level.positions[v.x]));
+            const float share = material.emissiveMap.texture == none ? 1.0f : 0.25f;  // of the texture that shines, at a guess
+            power += 0.5 * glm::length(normal) * share * std::max({material.emission.r, material.emission.g, material.emission.b});
+        }
+    }
+    const auto bounds = scene.bounds();
+    const double radius = 0.5 * glm::length(bounds[1] - bounds[0]);
+    return power > 0 && power / (4 * glm::pi<double>() * radius * radius) > 0.03;
+}
+
+void noteLevels(Scene& scene) {
+    if (scene.lod.mode != LodMode::finest && scene.lod.mode != LodMode::schedule)
+        scene.notes.push_back("levels of detail: " + describe(scene.lod));
+    for (const LodSwitch& s : scene.lod.schedule) {
+        if (s.instance == none || scene.lod.mode != LodMode::schedule) continue;
+        const std::size_t levels = scene.meshes[scene.instances[s.instance].mesh].levels.size();
+        if (std::size_t(s.level) >= levels)
+            scene.notes.push_back(fmt::format("the schedule asks for level {} of \"{}\" at frame {}, which has {}: its coarsest is shown", s.level,
+                                              scene.instances[s.instance].name, s.frame, levels));
+    }
 }
 
 void addSky(Scene& scene, bool hasExposure) {
@@ -66,7 +93,7 @@ Scene loadScene(const Path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (!std::filesystem::exists(path)) throw Error({path.string()}, "there is no such file");
+    if (!std::filesystem::exists(path)) throw Error(Where{path.string()}, path.empty() ? "the scene has no name" : "there is no such file");
     Scene scene;
     SceneFileSays says;
     if (extension == ".json") {
@@ -75,11 +102,12 @@ Scene loadScene(const Path& path) {
         scene.file = path;
         loadGltf(path, scene, none);
     } else {
-        throw Error({path.string()}, "this is no scene", "scenes are .json files, or models as .gltf or .glb");
+        throw Error(Where{path.string()}, "this is no scene", "scenes are .json files, or models as .gltf or .glb");
     }
     if (scene.instances.empty()) scene.notes.push_back("there are no triangles to be seen");
     if (scene.materials.empty()) scene.materials.push_back({.name = "default"});
     if (!says.environment && !hasLight(scene)) addSky(scene, says.exposure);
+    noteLevels(scene);
     if (scene.camera.keys.empty())
         addCamera(scene);
     else if (scene.camera.node != none)

@@ -150,6 +150,7 @@ private:
         if (quaternion && degrees)
             problems_.add(degrees->where(), fmt::format("{} has two rotations", fields.what()),
                           "give \"rotation\" (a quaternion) or \"rotationDegrees\"");
+        const Json* scale = fields.find("scale");  // asked for now: a mistake in the rotation must not make it an unknown key
         try {
             if (quaternion) {
                 const std::vector<double> q = numbersOf(*quaternion, "\"rotation\"", 4);
@@ -162,7 +163,7 @@ private:
                                 glm::angleAxis(glm::radians(float(angles[1])), glm::vec3(0, 1, 0)) *
                                 glm::angleAxis(glm::radians(float(angles[0])), glm::vec3(1, 0, 0));
             }
-            if (const Json* scale = fields.find("scale")) {
+            if (scale) {
                 if (scale->isNumber())
                     node.scale = glm::vec3(float(scale->asNumber()));
                 else if (scale->isArray())

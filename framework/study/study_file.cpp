@@ -86,7 +86,8 @@ private:
     void readSize(const Json* size) {
         if (!size) return;
         if (size->items("\"size\"").size() != 2) throw Error(size->where(), "\"size\" must be [width, height], in pixels");
-        for (int i = 0; i < 2; ++i) study_.size[i] = std::uint32_t(within(size->items()[std::size_t(i)], i == 0 ? "the width" : "the height", 1, 16384));
+        for (int i = 0; i < 2; ++i)
+            study_.size[i] = std::uint32_t(within(size->items()[std::size_t(i)], i == 0 ? "the width" : "the height", 1, 16384));
     }
 
     void readSeeds(const Json* seeds) {
@@ -94,7 +95,8 @@ private:
         if (seeds->isArray()) {
             for (const Json& item : seeds->items()) {
                 const auto seed = std::uint32_t(within(item, "a seed", 0, maxSeed));
-                if (std::ranges::find(study_.seeds, seed) != study_.seeds.end()) throw Error(item.where(), fmt::format("the seed {} is given twice", seed));
+                if (std::ranges::find(study_.seeds, seed) != study_.seeds.end())
+                    throw Error(item.where(), fmt::format("the seed {} is given twice", seed));
                 study_.seeds.push_back(seed);
             }
             if (study_.seeds.empty()) throw Error(seeds->where(), "there are no seeds");
@@ -143,9 +145,11 @@ private:
         if (dot == 0 || dot == name.npos || dot + 1 == name.size() || name.find('=') != name.npos)
             throw Error(value.keyWhere(), fmt::format("\"{}\" names no parameter", name), "write \"pass.parameter\"");
         if (name.starts_with("frame."))
-            throw Error(value.keyWhere(), fmt::format("\"{}\" belongs to the whole study", name), "size, seeds and frames stand beside \"techniques\"");
+            throw Error(value.keyWhere(), fmt::format("\"{}\" belongs to the whole study", name),
+                        "size, seeds and frames stand beside \"techniques\"");
         if (value.isArray() || value.isObject() || value.isNull())
-            throw Error(value.where(), fmt::format("a parameter's value can't be {}", value.kindName()), "lists of values stand in \"vary\"");
+            throw Error(value.where(), fmt::format("a parameter's value can't be {}", value.kindName()),
+                        "lists of values stand in \"vary\"");
         return name;
     }
 
@@ -155,7 +159,8 @@ private:
         if (const Json* samples = fields.require("spp"))
             attempt([&] {
                 study_.referenceSamples = int(within(*samples, "the reference's \"spp\"", 2, maxReferenceSamples));
-                if (study_.referenceSamples % 2 != 0) throw Error(samples->where(), "the reference's \"spp\" must be even", "it is rendered in two halves");
+                if (study_.referenceSamples % 2 != 0)
+                    throw Error(samples->where(), "the reference's \"spp\" must be even", "it is rendered in two halves");
             });
         fields.finish();
     }
@@ -178,7 +183,8 @@ private:
     void readVary(const Json& vary, Technique& technique) {
         for (const auto& [name, values] : vary.members("\"vary\""))
             attempt([&] {
-                if (values.items(fmt::format("\"{}\"", name)).empty()) throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
+                if (values.items(fmt::format("\"{}\"", name)).empty())
+                    throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
                 if (std::ranges::find(technique.graph.set, name, &StudySetting::name) != technique.graph.set.end())
                     throw Error(values.keyWhere(), fmt::format("\"{}\" is set and varied", name), "remove one of them");
                 Knob knob{.name = name};
@@ -192,7 +198,8 @@ private:
             });
     }
 
-    std::vector<std::string> readNames(const Json* value, const std::string& what, const std::vector<std::string>& known, std::vector<std::string> names) {
+    std::vector<std::string> readNames(const Json* value, const std::string& what, const std::vector<std::string>& known,
+                                       std::vector<std::string> names) {
         if (!value) return names;
         names.clear();
         attempt([&] {

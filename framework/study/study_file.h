@@ -52,11 +52,11 @@ struct Study {
     std::vector<StudyScene> scenes;
     glm::uvec2 size{480, 270};  ///< pixels
     std::vector<std::uint32_t> seeds;
-    int warmup = 0;              ///< frames rendered before the event
-    int event = 0;               ///< frame of the scene; where the file names none, `warmup`
-    std::vector<int> measure;    ///< frames after the event (negative: before), rising
+    int warmup = 0;            ///< frames rendered before the event
+    int event = 0;             ///< frame of the scene; where the file names none, `warmup`
+    std::vector<int> measure;  ///< frames after the event (negative: before), rising
     StudyGraph reference;
-    int referenceSamples = 0;    ///< a pixel, both halves together
+    int referenceSamples = 0;  ///< a pixel, both halves together
     std::vector<Technique> techniques;
     std::vector<std::string> metrics, charts;
 };

@@ -46,7 +46,8 @@ protected:
     /// What Python prints for a program that finds the file as sys.argv[1].
     std::string python(const std::string& program) {
         writeFile(folder / "p.py", program);
-        const std::string command = "python3 " + (folder / "p.py").string() + " " + (folder / "x.npy").string() + " > " + (folder / "out").string() + " 2>&1";
+        const std::string command =
+            "python3 " + (folder / "p.py").string() + " " + (folder / "x.npy").string() + " > " + (folder / "out").string() + " 2>&1";
         const int status = std::system(command.c_str());
         EXPECT_EQ(status, 0);
         return readText(folder / "out");
@@ -72,7 +73,8 @@ TEST_F(Npy, PlainTypesHaveAPlainHeader) {
 TEST_F(Npy, StructsHaveNamedFields) {
     const std::array<PrimaryHit, 2> hits{};
     EXPECT_EQ(header(std::as_bytes(std::span(hits)), hitFields(), {1, 2}),
-              "{'descr': [('instance', '<u4'), ('primitive', '<u4'), ('barycentrics', '<f4', (2,)), ('film', '<f4', (2,)), ('lens', '<f4', (2,))], "
+              "{'descr': [('instance', '<u4'), ('primitive', '<u4'), ('barycentrics', '<f4', (2,)), ('film', '<f4', (2,)), ('lens', '<f4', "
+              "(2,))], "
               "'fortran_order': False, 'shape': (1, 2), }");
 }
 
@@ -80,13 +82,15 @@ TEST_F(Npy, GapsArraysAndNestedStructsAreKept) {
     writeFile(folder / "s.h", std::string_view("struct In { uint a; uint64_t b; };\nstruct S { uint x; In in[2]; mat3 m; };\n"));
     const std::vector<std::byte> bytes(80);
     EXPECT_EQ(header(bytes, structFields("S", "s.h", {folder}, 80), {1}),
-              "{'descr': [('x', '<u4'), ('', '|V4'), ('in', [('a', '<u4'), ('', '|V4'), ('b', '<u8')], (2,)), ('m', '<f4', (3, 3)), ('', '|V4')], "
+              "{'descr': [('x', '<u4'), ('', '|V4'), ('in', [('a', '<u4'), ('', '|V4'), ('b', '<u8')], (2,)), ('m', '<f4', (3, 3)), ('', "
+              "'|V4')], "
               "'fortran_order': False, 'shape': (1,), }");
 }
 
 TEST_F(Npy, LongHeadersTakeTheSecondVersion) {
     std::vector<StructField> fields;
-    for (std::size_t i = 0; i < 3000; ++i) fields.push_back({.name = "a_rather_long_name_" + std::to_string(i), .type = "float", .offset = 4 * i, .size = 4, .members = {}});
+    for (std::size_t i = 0; i < 3000; ++i)
+        fields.push_back({.name = "a_rather_long_name_" + std::to_string(i), .type = "float", .offset = 4 * i, .size = 4, .members = {}});
     const std::vector<std::byte> bytes(12000);
     EXPECT_GT(header(bytes, fields, {1}).size(), 65536u);
     EXPECT_EQ(readText(folder / "x.npy")[6], '\x02');
@@ -104,9 +108,12 @@ TEST_F(Npy, SizesThatDoNotFitAreRefused) {
 TEST_F(Npy, NumpyReadsTheSameValues) {
     if (!hasNumpy()) GTEST_SKIP() << "python3 has no numpy here, so only the bytes were checked";
     std::array<PrimaryHit, 6> hits{};
-    for (std::uint32_t i = 0; i < 6; ++i) hits[i] = {.instance = i, .primitive = 0xffffffffu - i, .barycentrics = {i + 0.25f, i + 0.5f}, .film = {-1.0f, float(i)}, .lens = {0, 7}};
+    for (std::uint32_t i = 0; i < 6; ++i)
+        hits[i] = {
+            .instance = i, .primitive = 0xffffffffu - i, .barycentrics = {i + 0.25f, i + 0.5f}, .film = {-1.0f, float(i)}, .lens = {0, 7}};
     writeNpy(folder / "x.npy", std::as_bytes(std::span(hits)), hitFields(), Shape{2, 3});
-    EXPECT_EQ(python("import sys, numpy\na = numpy.load(sys.argv[1])\nprint(a.shape, a['primitive'][1, 2], a['barycentrics'][1, 0].tolist(), a['film'].shape, a['lens'].sum())\n"),
+    EXPECT_EQ(python("import sys, numpy\na = numpy.load(sys.argv[1])\nprint(a.shape, a['primitive'][1, 2], a['barycentrics'][1, "
+                     "0].tolist(), a['film'].shape, a['lens'].sum())\n"),
               "(2, 3) 4294967290 [3.25, 3.5] (2, 3, 2) 42.0\n");
 
     writeFile(folder / "s.h", std::string_view("struct In { uint a; uint64_t b; };\nstruct S { uint x; In in[2]; mat3 m; };\n"));
@@ -114,9 +121,10 @@ TEST_F(Npy, NumpyReadsTheSameValues) {
     for (std::uint32_t i = 0; i < 40; ++i) words[i] = i;
     words[5] = 0;  // high word of in[0].b
     writeNpy(folder / "x.npy", std::as_bytes(std::span(words)), structFields("S", "s.h", {folder}, 80), Shape{2});
-    EXPECT_EQ(python("import sys, numpy\na = numpy.load(sys.argv[1])\n"
-                     "print(a.dtype.itemsize, a['x'].tolist(), a['in']['a'].tolist(), a['in']['b'][0, 0], a['m'].view('<u4')[0, 1].tolist())\n"),
-              "80 [0, 20] [[2, 6], [22, 26]] 4 [13, 14, 15]\n");
+    EXPECT_EQ(
+        python("import sys, numpy\na = numpy.load(sys.argv[1])\n"
+               "print(a.dtype.itemsize, a['x'].tolist(), a['in']['a'].tolist(), a['in']['b'][0, 0], a['m'].view('<u4')[0, 1].tolist())\n"),
+        "80 [0, 20] [[2, 6], [22, 26]] 4 [13, 14, 15]\n");
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ const StructField& named(const std::vector<StructField>& fields, std::string_vie
 /// "name type offset count", one line a field.
 std::string inWords(const std::vector<StructField>& fields) {
     std::string text;
-    for (const StructField& f : fields) text += f.name + " " + f.type + " " + std::to_string(f.offset) + " " + std::to_string(f.count) + "\n";
+    for (const StructField& f : fields)
+        text += f.name + " " + f.type + " " + std::to_string(f.offset) + " " + std::to_string(f.count) + "\n";
     return text;
 }
 
@@ -67,8 +68,8 @@ TEST_F(StructLayout, PrimaryHitIsWhatTheCompilerMadeOfIt) {
     EXPECT_EQ(inWords(fieldsOf<PrimaryHit>()), "instance uint " + std::to_string(offsetof(PrimaryHit, instance)) + " 0\n" +
                                                    "primitive uint " + std::to_string(offsetof(PrimaryHit, primitive)) + " 0\n" +
                                                    "barycentrics vec2 " + std::to_string(offsetof(PrimaryHit, barycentrics)) + " 0\n" +
-                                                   "film vec2 " + std::to_string(offsetof(PrimaryHit, film)) + " 0\n" +
-                                                   "lens vec2 " + std::to_string(offsetof(PrimaryHit, lens)) + " 0\n");
+                                                   "film vec2 " + std::to_string(offsetof(PrimaryHit, film)) + " 0\n" + "lens vec2 " +
+                                                   std::to_string(offsetof(PrimaryHit, lens)) + " 0\n");
 }
 
 TEST_F(StructLayout, WorldAndItsPartsAreWhatTheCompilerMadeOfThem) {

@@ -45,7 +45,8 @@ TEST_F(NewPass, InAnotherFolderBuildsAndRunsAndTouchesNothing) {
     ASSERT_EQ(twice.width, once.width);
     for (int y = 0; y < once.height; ++y)
         for (int x = 0; x < once.width; ++x)
-            for (int c = 0; c < 3; ++c) ASSERT_NEAR(twice.at(x, y, c), 2 * once.at(x, y, c), 1e-3f * (1 + 2 * once.at(x, y, c))) << x << ", " << y;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(twice.at(x, y, c), 2 * once.at(x, y, c), 1e-3f * (1 + 2 * once.at(x, y, c))) << x << ", " << y;
 
     // The program knows it as it knows its own passes.
     const Output described = lodestir({"passes", "double_light", "--passes", (folder / "mine").string(), "--json"});
@@ -59,9 +60,14 @@ TEST_F(NewPass, MistakesInItsShaderAreFound) {
     shell(lineAfter(made, "build:"));
     ASSERT_FALSE(HasFailure());
     const auto runWith = [&](const std::string& line, const std::string& flag) {
-        writeFile(folder / "mine/faulty/faulty.comp", "#version 460\n#include \"pass.glsl\"\nvoid main() {\n    if (skip()) return;\n    ivec2 p = pixel();\n    " + line + "\n}\n");
-        Arguments arguments{"run", (folder / "mine/faulty/faulty.json").string(), "--passes", (folder / "mine").string(), "--size", "48x32", "--show", "new.result",
-                            "--out", (folder / "out").string()};
+        writeFile(
+            folder / "mine/faulty/faulty.comp",
+            "#version 460\n#include \"pass.glsl\"\nvoid main() {\n    if (skip()) return;\n    ivec2 p = pixel();\n    " + line + "\n}\n");
+        Arguments arguments{"run",      (folder / "mine/faulty/faulty.json").string(),
+                            "--passes", (folder / "mine").string(),
+                            "--size",   "48x32",
+                            "--show",   "new.result",
+                            "--out",    (folder / "out").string()};
         if (!flag.empty()) arguments.push_back(flag);
         return lodestir(arguments);
     };
@@ -93,7 +99,8 @@ TEST_F(NewPass, RefusesWhatIsThereAlreadyAndWhatIsNoName) {
     const std::string text = readText(folder / "mine/twice/twice.cpp");
     EXPECT_EQ(runProcess({script, "twice", "--in", mine}).exitCode, 1);
     EXPECT_EQ(readText(folder / "mine/twice/twice.cpp"), text);
-    for (const char* name : {"Twice", "../twice", "a b", "9lives", "--what"}) EXPECT_EQ(runProcess({script, name, "--in", mine}).exitCode, 2) << name;
+    for (const char* name : {"Twice", "../twice", "a b", "9lives", "--what"})
+        EXPECT_EQ(runProcess({script, name, "--in", mine}).exitCode, 2) << name;
     EXPECT_EQ(filesOf(folder / "mine"), (std::set<std::string>{"twice"}));
 }
 

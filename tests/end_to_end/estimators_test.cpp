@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Light sampling, BSDF sampling and both together are estimates of one image; so are images with and without roulette.
 //
-// Frames of a run are independent. Each test compares 16 frames of each estimator by Welch's t: the energy, and 48 block means (16x16 pixels x 3 channels)
-// with Bonferroni, both at 1e-3, so a correct renderer fails 1 run of 500 at most (and seeds are fixed: it fails always or never).
-// Power is asserted: the 95 % half-width of the energy's ratio is at most 1 %, so that a bias of 3 % is found nearly always; a planted one is.
+// Frames of a run are independent. Each test compares 16 frames of each estimator by Welch's t: the energy, and 48 block means
+// (16x16 pixels x 3 channels) with Bonferroni, both at 1e-3, so a correct renderer fails 1 run of 500 at most (and seeds are fixed: it
+// fails always or never). Power is asserted: the 95 % half-width of the energy's ratio is at most 1 %, so that a bias of 3 % is found
+// nearly always; a planted one is.
 #include "model.h"
 #include "program.h"
 #include "statistics.h"
@@ -16,7 +17,7 @@ constexpr int frameCount = 16;
 class Estimators : public ProgramTest {
 protected:
     std::vector<ImageData> frames(const std::string& name, const std::string& out, const OrderedJson& parameters, const std::string& seed) {
-        return render(out, writeGraph(folder, name, 64, 64, parameters), "trace.color", frameCount, {"--seed", seed});
+        return render(out, writeGraph(folder, name, 64, 64, parameters), "trace", frameCount, {"--seed", seed});
     }
 
     void expectEqual(const std::vector<ImageData>& a, const std::vector<ImageData>& b, const std::string& what) {
@@ -65,8 +66,10 @@ TEST_F(Estimators, Environment) {
     }
     writeExr(folder / "map.exr", map);
     std::vector<Quad> quads{{{-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, {.color = {0.6, 0.5, 0.4}}}};
-    for (Quad& quad : box({-1.6, 0, -0.8}, {-0.6, 1.4, 0.3}, {.color = {0.8, 0.8, 0.8}, .roughness = 0.5, .ior = 1.5})) quads.push_back(quad);
-    for (Quad& quad : box({0.3, 0, -0.6}, {1.3, 0.8, 0.5}, {.color = {0.9, 0.6, 0.3}, .metallic = 1, .roughness = 0.6})) quads.push_back(quad);
+    for (Quad& quad : box({-1.6, 0, -0.8}, {-0.6, 1.4, 0.3}, {.color = {0.8, 0.8, 0.8}, .roughness = 0.5, .ior = 1.5}))
+        quads.push_back(quad);
+    for (Quad& quad : box({0.3, 0, -0.6}, {1.3, 0.8, 0.5}, {.color = {0.9, 0.6, 0.3}, .metallic = 1, .roughness = 0.6}))
+        quads.push_back(quad);
     writeModel(folder, "blocks", quads);
     writeScene(folder, "blocks", {.position = {1.5, 2.6, 4.5}, .target = {-0.1, 0.4, 0}, .fovy = 40},
                {{"type", "map"}, {"file", "map.exr"}, {"rotationDegrees", 40}, {"strength", 1.0}});
@@ -78,10 +81,15 @@ TEST_F(Estimators, Environment) {
 // Nothing can hit a point; the choice among several lights must not depend on the estimator.
 TEST_F(Estimators, PointLight) {
     writeModel(folder, "room", room(true));
-    writeScene(folder, "room", inside, constantEnvironment(Point(0)),
-               OrderedJson::array({OrderedJson{{"type", "point"}, {"position", {2.0, 2.0, 3.0}}, {"intensity", 2.0}, {"color", {1, 0.9, 0.7}}},
-                                   OrderedJson{{"type", "spot"}, {"position", {3.5, 2.5, 0.5}}, {"direction", {-1, -1.5, 1}}, {"intensity", 4.0},
-                                               {"innerConeDegrees", 10}, {"outerConeDegrees", 30}}}));
+    writeScene(
+        folder, "room", inside, constantEnvironment(Point(0)),
+        OrderedJson::array({OrderedJson{{"type", "point"}, {"position", {2.0, 2.0, 3.0}}, {"intensity", 2.0}, {"color", {1, 0.9, 0.7}}},
+                            OrderedJson{{"type", "spot"},
+                                        {"position", {3.5, 2.5, 0.5}},
+                                        {"direction", {-1, -1.5, 1}},
+                                        {"intensity", 4.0},
+                                        {"innerConeDegrees", 10},
+                                        {"outerConeDegrees", 30}}}));
     const auto both = frames("room", "both", {{"spp", 24}, {"bounces", 3}}, "1");
     expectEqual(frames("room", "light", {{"spp", 24}, {"bounces", 3}, {"estimator", "light"}}, "2"), both, "light sampling against both");
     // Lights without extent are sampled all the same; only the lamp is left to chance.

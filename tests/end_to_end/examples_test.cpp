@@ -57,7 +57,8 @@ TEST_F(Examples, CheckPlansEachWithoutADevice) {
     std::vector<Path> graphs = graphsIn(sourceFolder / "passes");
     for (const Path& graph : graphsIn(sourceFolder / "graphs")) graphs.push_back(graph);
     for (const Path& graph : graphs) {
-        const Output output = runProcess({LODESTIR_BINARY, "check", graph.string()}, {{"VK_DRIVER_FILES", "/nowhere"}, {"VK_ICD_FILENAMES", "/nowhere"}});
+        const Output output =
+            runProcess({LODESTIR_BINARY, "check", graph.string()}, {{"VK_DRIVER_FILES", "/nowhere"}, {"VK_ICD_FILENAMES", "/nowhere"}});
         EXPECT_EQ(output.exitCode, 0) << graph << "\n" << output.err;
         EXPECT_FALSE(output.out.empty()) << graph;
     }

@@ -22,7 +22,7 @@ protected:
         writeModel(folder, name, box(Point(-1), Point(1), paint));
         writeScene(folder, name, view, constantEnvironment(Point(1)));
         parameters["roulette"] = false;
-        return render(name + "_out", writeGraph(folder, name, size, size, parameters), "trace.color", count, {});
+        return render(name + "_out", writeGraph(folder, name, size, size, parameters), "trace", count, {});
     }
     /// Every pixel, without noise.
     void expectInvisible(const std::vector<ImageData>& images, float tolerance) {
@@ -58,7 +58,9 @@ const Paint roughGlass{.color = Point(1), .roughness = 0.5, .ior = 1.5, .transmi
 const Paint roughMetal{.color = Point(1), .metallic = 1, .roughness = 0.7, .ior = 1.5};
 
 // Directions in proportion to the cosine carry a weight of exactly 1.
-TEST_F(Furnace, DiffuseHasNoNoise) { expectInvisible(frames("diffuse", diffuse, {{"spp", 1}, {"bounces", 2}, {"estimator", "bsdf"}}, 2), 1e-4f); }
+TEST_F(Furnace, DiffuseHasNoNoise) {
+    expectInvisible(frames("diffuse", diffuse, {{"spp", 1}, {"bounces", 2}, {"estimator", "bsdf"}}, 2), 1e-4f);
+}
 
 TEST_F(Furnace, DiffuseByLightSampling) {
     expectSame(frames("both", diffuse, {{"spp", 16}, {"bounces", 2}}), ones(), 0.005);
@@ -78,8 +80,8 @@ TEST_F(Furnace, DiffuseUnderASmoothLayer) {
     EXPECT_NEAR(energyOf(images), 1, 0.005);
 }
 
-/// Reflection and refraction by GGX microfacets, one scattering at a time, in double precision: visible normals as Heitz 2018 (Sampling the GGX
-/// Distribution of Visible Normals, appendix A) samples them, so that a path's weight changes by G2 / G1 alone.
+/// Reflection and refraction by GGX microfacets, one scattering at a time, in double precision: visible normals as Heitz 2018
+/// (Sampling the GGX Distribution of Visible Normals, appendix A) samples them, so that a path's weight changes by G2 / G1 alone.
 class Microfacets {
 public:
     Microfacets(double roughness, double eta, bool metal) : alpha_(roughness * roughness), eta_(eta), metal_(metal) {}
@@ -87,7 +89,8 @@ public:
     ImageData frame(int samples, int bounces, std::uint64_t seed) const {
         std::mt19937_64 random(seed);
         const auto uniform = [&] { return std::generate_canonical<double, 53>(random); };
-        const Point forward = glm::normalize(view.target - view.position), right = glm::normalize(glm::cross(forward, view.up)), up = glm::cross(right, forward);
+        const Point forward = glm::normalize(view.target - view.position), right = glm::normalize(glm::cross(forward, view.up)),
+                    up = glm::cross(right, forward);
         const double half = std::tan(view.fovy * std::numbers::pi / 360);
         ImageData image = makeImage(size, size, 3);
         for (int y = 0; y < size; ++y) {
@@ -146,7 +149,8 @@ private:
     static double fresnel(double cosI, double eta) {
         const double sin2 = (1 - cosI * cosI) / (eta * eta);
         if (sin2 >= 1) return 1;
-        const double cosT = std::sqrt(1 - sin2), s = (cosI - eta * cosT) / (cosI + eta * cosT), p = (eta * cosI - cosT) / (eta * cosI + cosT);
+        const double cosT = std::sqrt(1 - sin2), s = (cosI - eta * cosT) / (cosI + eta * cosT),
+                     p = (eta * cosI - cosT) / (eta * cosI + cosT);
         return 0.5 * (s * s + p * p);
     }
     Point visibleNormal(const Point& o, int axis, double sign, double u1, double u2) const {

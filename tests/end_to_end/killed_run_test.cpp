@@ -21,9 +21,11 @@ TEST_F(KilledRun, LeavesNoHalfFile) {
                          {"show", "hits.normal"}});
     for (int round = 0; round < 6; ++round) {
         const Path out = folder / ("out" + std::to_string(round));
-        Process process({LODESTIR_BINARY, "run", (folder / "graph.json").string(), "--out", out.string(), "--dump", "hits.hits", "--dump", "hits.depth"});
+        Process process({LODESTIR_BINARY, "run", (folder / "graph.json").string(), "--out", out.string(), "--dump", "hits.hits", "--dump",
+                         "hits.depth"});
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-        while (filesOf(out).size() < 8 && process.running() && std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        while (filesOf(out).size() < 8 && process.running() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
         std::this_thread::sleep_for(std::chrono::milliseconds(7 * round));  // another moment of the cycle each time
         ASSERT_TRUE(process.running()) << process.wait(std::chrono::seconds(1)).err;
         process.kill(SIGKILL);

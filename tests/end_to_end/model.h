@@ -57,15 +57,16 @@ inline OrderedJson toJson(const Point& p) { return OrderedJson::array({p.x, p.y,
 /// Writes name.gltf and name.bin: one primitive and one material a quad, without normals (so they are flat).
 inline void writeModel(const Path& folder, const std::string& name, const std::vector<Quad>& quads) {
     std::vector<float> numbers;
-    OrderedJson gltf = {{"asset", {{"version", "2.0"}}},
-                        {"extensionsUsed", {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"}},
-                        {"scene", 0},
-                        {"scenes", OrderedJson::array({OrderedJson{{"nodes", OrderedJson::array({0})}}})},
-                        {"nodes", OrderedJson::array({OrderedJson{{"mesh", 0}, {"name", name}}})},
-                        {"meshes", OrderedJson::array({OrderedJson{{"primitives", OrderedJson::array()}}})},
-                        {"materials", OrderedJson::array()},
-                        {"accessors", OrderedJson::array()},
-                        {"bufferViews", OrderedJson::array()}};
+    OrderedJson gltf = {
+        {"asset", {{"version", "2.0"}}},
+        {"extensionsUsed", {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_transmission", "KHR_materials_volume"}},
+        {"scene", 0},
+        {"scenes", OrderedJson::array({OrderedJson{{"nodes", OrderedJson::array({0})}}})},
+        {"nodes", OrderedJson::array({OrderedJson{{"mesh", 0}, {"name", name}}})},
+        {"meshes", OrderedJson::array({OrderedJson{{"primitives", OrderedJson::array()}}})},
+        {"materials", OrderedJson::array()},
+        {"accessors", OrderedJson::array()},
+        {"bufferViews", OrderedJson::array()}};
     for (std::size_t i = 0; i < quads.size(); ++i) {
         const Quad& q = quads[i];
         const std::array<Point, 6> corners{q.corner, q.corner + q.a, q.corner + q.a + q.b, q.corner, q.corner + q.a + q.b, q.corner + q.b};
@@ -77,7 +78,12 @@ inline void writeModel(const Path& folder, const std::string& name, const std::v
             high = glm::max(high, v);
         }
         gltf["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", i * 72}, {"byteLength", 72}});
-        gltf["accessors"].push_back({{"bufferView", i}, {"componentType", 5126}, {"count", 6}, {"type", "VEC3"}, {"min", toJson(Point(low))}, {"max", toJson(Point(high))}});
+        gltf["accessors"].push_back({{"bufferView", i},
+                                     {"componentType", 5126},
+                                     {"count", 6},
+                                     {"type", "VEC3"},
+                                     {"min", toJson(Point(low))},
+                                     {"max", toJson(Point(high))}});
         gltf["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", i}}}, {"material", i}});
 
         const Paint& paint = q.paint;
@@ -106,12 +112,14 @@ struct View {
 };
 
 /// A scene file of one model. `environment` and `lights` are as in scene files.
-inline void writeScene(const Path& folder, const std::string& name, const View& view, const OrderedJson& environment, const OrderedJson& lights = OrderedJson::array()) {
-    const OrderedJson scene = {{"format", 1},
-                               {"models", {{name, {{"file", name + ".gltf"}}}}},
-                               {"environment", environment},
-                               {"lights", lights},
-                               {"camera", {{"position", toJson(view.position)}, {"target", toJson(view.target)}, {"up", toJson(view.up)}, {"fovy", view.fovy}}}};
+inline void writeScene(const Path& folder, const std::string& name, const View& view, const OrderedJson& environment,
+                       const OrderedJson& lights = OrderedJson::array()) {
+    const OrderedJson scene = {
+        {"format", 1},
+        {"models", {{name, {{"file", name + ".gltf"}}}}},
+        {"environment", environment},
+        {"lights", lights},
+        {"camera", {{"position", toJson(view.position)}, {"target", toJson(view.target)}, {"up", toJson(view.up)}, {"fovy", view.fovy}}}};
     writeFile(folder / (name + ".json"), scene.dump(2));
 }
 
@@ -125,7 +133,7 @@ inline Path writeGraph(const Path& folder, const std::string& name, int width, i
                                {"scene", name + ".json"},
                                {"frame", {{"size", {width, height}}, {"count", 1}, {"seed", 1}}},
                                {"passes", {{"trace", {{"type", "path_tracer"}, {"set", parameters}}}}},
-                               {"show", "trace.color"}};
+                               {"show", "trace"}};
     writeFile(folder / (name + ".graph.json"), graph.dump(2));
     return folder / (name + ".graph.json");
 }

@@ -30,7 +30,8 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 
 class Process {
 public:
-    /// Starts command[0] (looked up in PATH) in a process group of its own; `environment` is added to ours. std::runtime_error when it can't be.
+    /// Starts command[0] (looked up in PATH) in a process group of its own; `environment` is added to ours.
+    /// std::runtime_error when it can't be.
     Process(const std::vector<std::string>& command, const Environment& environment = {}) : out_(file("out")), err_(file("err")) {
         std::vector<std::string> variables;
         for (char** v = ::environ; *v; ++v) {
@@ -49,7 +50,8 @@ public:
         posix_spawnattr_t attributes;
         posix_spawnattr_init(&attributes);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
-        const int failure = ::posix_spawnp(&pid_, command[0].c_str(), &actions, &attributes, pointers(command).data(), pointers(variables).data());
+        const int failure =
+            ::posix_spawnp(&pid_, command[0].c_str(), &actions, &attributes, pointers(command).data(), pointers(variables).data());
         posix_spawn_file_actions_destroy(&actions);
         posix_spawnattr_destroy(&attributes);
         if (failure != 0) throw std::runtime_error("cannot start " + command[0]);

@@ -45,8 +45,10 @@ protected:
         folder = ::mkdtemp(name.data());
     }
     ~ProgramTest() override {
-        if (!HasFailure()) std::filesystem::remove_all(folder);
-        else std::printf("kept for a look: %s\n", folder.c_str());
+        if (!HasFailure())
+            std::filesystem::remove_all(folder);
+        else
+            std::printf("kept for a look: %s\n", folder.c_str());
     }
 
     void write(const Path& name, const OrderedJson& json) { writeFile(folder / name, json.dump(2)); }
@@ -56,7 +58,9 @@ protected:
     Path run(const std::string& out, const Path& graph, Arguments arguments) {
         arguments.insert(arguments.begin(), {"run", graph.string(), "--out", (folder / out).string()});
         const Output output = lodestir(arguments);
-        EXPECT_EQ(output.exitCode, 0) << "lodestir " << commandText(arguments) << "\nsignal " << output.signal << (output.timedOut ? ", out of time" : "") << "\n" << output.err;
+        EXPECT_EQ(output.exitCode, 0) << "lodestir " << commandText(arguments) << "\nsignal " << output.signal
+                                      << (output.timedOut ? ", out of time" : "") << "\n"
+                                      << output.err;
         EXPECT_EQ(output.err.find("validation"), std::string::npos) << output.err;
         return folder / out;
     }
@@ -65,7 +69,8 @@ protected:
         arguments.insert(arguments.end(), {"--show", show, "--frames", std::to_string(frames)});
         const Path results = run(out, graph, arguments);
         std::vector<ImageData> images;
-        for (int frame = 0; frame < frames && !HasFailure(); ++frame) images.push_back(readExr(results / (show + "." + std::to_string(frame) + ".exr")));
+        for (int frame = 0; frame < frames && !HasFailure(); ++frame)
+            images.push_back(readExr(results / (show + "." + std::to_string(frame) + ".exr")));
         return images;
     }
     /// Names in a folder; none where there is no such folder.

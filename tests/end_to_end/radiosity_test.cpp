@@ -18,7 +18,8 @@ class Radiosity : public ProgramTest {};
 
 /// Pinhole: direction through a point of the film, (0, 0) at its upper left.
 Point viewDirection(const View& view, double x, double y) {
-    const Point forward = glm::normalize(view.target - view.position), right = glm::normalize(glm::cross(forward, view.up)), up = glm::cross(right, forward);
+    const Point forward = glm::normalize(view.target - view.position), right = glm::normalize(glm::cross(forward, view.up)),
+                up = glm::cross(right, forward);
     const double half = std::tan(view.fovy * std::numbers::pi / 360);
     return forward + (2 * x - 1) * half * right + (1 - 2 * y) * half * up;
 }
@@ -54,7 +55,8 @@ public:
             for (int x = 0; x < size; ++x) {
                 Point sum(0);
                 for (int s = 0; s < samples; ++s) {
-                    Point origin = view.position, direction = viewDirection(view, (x + uniform()) / size, (y + uniform()) / size), throughput(1);
+                    Point origin = view.position, direction = viewDirection(view, (x + uniform()) / size, (y + uniform()) / size),
+                          throughput(1);
                     for (int k = 0;; ++k) {
                         const Crossing hit = cross(origin, direction);
                         if (!hit.quad) break;
@@ -122,12 +124,17 @@ TEST_F(Radiosity, UniformEnclosureHasItsClosedForm) {
     for (const int bounces : {0, 1, 6}) {
         const Point expected = glowAfter(bounces);
         // BSDF sampling meets the same radiance whatever it hits: no noise but rounding. Roulette would bring some.
-        const auto exact = render("exact", writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"estimator", "bsdf"}, {"roulette", false}}), "trace.color", 1, {});
+        const auto exact =
+            render("exact",
+                   writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"estimator", "bsdf"}, {"roulette", false}}),
+                   "trace", 1, {});
         ASSERT_EQ(exact.size(), 1u);
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x)
-                for (int c = 0; c < 3; ++c) ASSERT_NEAR(exact[0].at(x, y, c), expected[c], 2e-4 * expected[c]) << bounces << " bounces, pixel " << x << ", " << y;
-        const auto both = render("both", writeGraph(folder, "enclosure", 32, 32, {{"spp", 16}, {"bounces", bounces}}), "trace.color", 8, {});
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(exact[0].at(x, y, c), expected[c], 2e-4 * expected[c]) << bounces << " bounces, pixel " << x << ", " << y;
+        const auto both =
+            render("both", writeGraph(folder, "enclosure", 32, 32, {{"spp", 16}, {"bounces", bounces}}), "trace", 8, {});
         std::vector<double> energies;
         for (const ImageData& image : both) energies.push_back(meanOf(image));
         const Mean mean = lodestir::test::meanOf(energies);
@@ -137,7 +144,8 @@ TEST_F(Radiosity, UniformEnclosureHasItsClosedForm) {
     }
 }
 
-// Radiance of a diffuse plane is albedo / pi times its irradiance: candela over distance squared times cosine, or the directional light's lux.
+// Radiance of a diffuse plane is albedo / pi times its irradiance: candela over distance squared times cosine,
+// or the directional light's lux.
 TEST_F(Radiosity, PlaneUnderPunctualLightsHasItsClosedForm) {
     const Point albedo{0.9, 0.6, 0.3}, color{1, 0.5, 0.25}, lamp{0.3, 1.5, -0.4};
     writeModel(folder, "plane", {{{-4, 0, -4}, {0, 0, 8}, {8, 0, 0}, {.color = albedo}}});
@@ -148,17 +156,21 @@ TEST_F(Radiosity, PlaneUnderPunctualLightsHasItsClosedForm) {
         {{{"type", "directional"}, {"direction", toJson(downwards)}, {"intensity", 2.0}, {"color", toJson(color)}}, false}};
     for (const auto& [light, isPoint] : lights) {
         writeScene(folder, "plane", view, constantEnvironment(Point(0)), OrderedJson::array({light}));
-        const auto images = render(isPoint ? "point" : "directional", writeGraph(folder, "plane", size, size, {{"spp", 1}, {"bounces", 1}, {"pixelCentre", true}}), "trace.color", 1, {});
+        const auto images =
+            render(isPoint ? "point" : "directional",
+                   writeGraph(folder, "plane", size, size, {{"spp", 1}, {"bounces", 1}, {"pixelCentre", true}}), "trace", 1, {});
         ASSERT_EQ(images.size(), 1u);
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
-                const Point direction = viewDirection(view, (x + 0.5) / size, (y + 0.5) / size), at = view.position - direction * (view.position.y / direction.y);
+                const Point direction = viewDirection(view, (x + 0.5) / size, (y + 0.5) / size),
+                            at = view.position - direction * (view.position.y / direction.y);
                 if (direction.y >= 0 || std::abs(at.x) > 3.99 || std::abs(at.z) > 3.99) continue;  // beside the plane or at its very edge
                 const Point to = lamp - at;
                 const double irradiance = isPoint ? 5 * to.y / std::pow(glm::dot(to, to), 1.5) : 2 * -downwards.y;
                 for (int c = 0; c < 3; ++c) {
                     const double expected = albedo[c] / std::numbers::pi * color[c] * irradiance;
-                    ASSERT_NEAR(images[0].at(x, y, c), expected, 1e-3 * expected) << (isPoint ? "point" : "directional") << ", pixel " << x << ", " << y;
+                    ASSERT_NEAR(images[0].at(x, y, c), expected, 1e-3 * expected)
+                        << (isPoint ? "point" : "directional") << ", pixel " << x << ", " << y;
                 }
             }
         }
@@ -174,9 +186,12 @@ TEST_F(Radiosity, RoomWithABlockMatchesAnIndependentSolution) {
     const glm::dvec2 along(0.9, 0.35);  // a block turned about the vertical
     const Point a(along.x, 0, along.y), b(-along.y, 0, along.x), up(0, 1.3, 0), foot(1.2, 0, 1.1);
     const Paint grey{.color = {0.6, 0.55, 0.5}};
-    for (const Quad& side : {Quad{foot, up, a, grey}, Quad{foot + a, up, b, grey}, Quad{foot + a + b, up, -a, grey}, Quad{foot + b, up, -b, grey}, Quad{foot + up, b, a, grey}}) quads.push_back(side);
+    for (const Quad& side : {Quad{foot, up, a, grey}, Quad{foot + a, up, b, grey}, Quad{foot + a + b, up, -a, grey},
+                             Quad{foot + b, up, -b, grey}, Quad{foot + up, b, a, grey}})
+        quads.push_back(side);
     for (std::size_t i = quads.size() - 5; i < quads.size(); ++i)
-        ASSERT_GT(glm::dot(quads[i].normal(), quads[i].corner + 0.5 * (quads[i].a + quads[i].b) - (foot + 0.5 * (a + b + up))), 0) << "a side of the block faces inward";
+        ASSERT_GT(glm::dot(quads[i].normal(), quads[i].corner + 0.5 * (quads[i].a + quads[i].b) - (foot + 0.5 * (a + b + up))), 0)
+            << "a side of the block faces inward";
     quads.push_back({{1.2, 2.9, 1.0}, {1.8, 0, 0}, {0, 0, 1.8}, {.color = Point(0), .emission = {4, 3.2, 2.0}}});
     ASSERT_LT(quads.back().normal().y, 0);
 
@@ -188,12 +203,14 @@ TEST_F(Radiosity, RoomWithABlockMatchesAnIndependentSolution) {
         std::vector<std::jthread> workers;
         for (int worker = 0; worker < 2; ++worker)
             workers.emplace_back([&, worker] {
-                for (int i = worker; i < frames; i += 2) expected[std::size_t(i)] = reference.frame(view, 64, bounces, std::uint64_t(1000 + i));
+                for (int i = worker; i < frames; i += 2)
+                    expected[std::size_t(i)] = reference.frame(view, 64, bounces, std::uint64_t(1000 + i));
             });
     }
     writeModel(folder, "room", quads);
     writeScene(folder, "room", view, constantEnvironment(Point(0)));
-    const auto actual = render("out", writeGraph(folder, "room", size, size, {{"spp", 24}, {"bounces", bounces}}), "trace.color", frames, {});
+    const auto actual =
+        render("out", writeGraph(folder, "room", size, size, {{"spp", 24}, {"bounces", bounces}}), "trace", frames, {});
     ASSERT_EQ(actual.size(), std::size_t(frames));
 
     const Comparison comparison = compareFrames(actual, expected);

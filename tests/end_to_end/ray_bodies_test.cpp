@@ -14,7 +14,8 @@ class RayBodies : public ProgramTest {
 protected:
     std::vector<PrimaryHit> hits(const std::string& body, const std::string& scene) {
         const Path out = run(body, sourceFolder / "passes/visibility/visibility.json",
-                             {"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "128x72", "--frames", "1", "--rays", body, "--dump", "hits.hits"});
+                             {"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "128x72", "--frames", "1", "--rays", body,
+                              "--dump", "hits.hits"});
         const std::vector<std::byte> npy = readBytes(out / "hits.hits.0.npy");
         std::vector<PrimaryHit> result(128 * 72);
         const std::size_t bytes = result.size() * sizeof(PrimaryHit);
@@ -23,7 +24,7 @@ protected:
         return result;
     }
     std::vector<ImageData> frames(const std::string& body, const std::string& scene) {
-        return render(body + "_frames", sourceFolder / "graphs/path_tracer.json", "trace.color", 8,
+        return render(body + "_frames", sourceFolder / "graphs/path_tracer.json", "trace", 8,
                       {"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "64x64", "--set", "trace.spp=16", "--rays", body});
     }
 };

@@ -29,19 +29,24 @@ class RunContract : public ProgramTest {};
 
 TEST_F(RunContract, FilesAreNamedByShownPortAndFrame) {
     const Path out = run("out", pathTracer, with(small, {"--frames", "2", "--show", "trace.color", "--dump", "accumulate.mean"}));
-    EXPECT_EQ(filesOf(out), (std::set<std::string>{"accumulate.mean.0.exr", "accumulate.mean.1.exr", "run.json", "trace.color.0.exr", "trace.color.0.png",
-                                                   "trace.color.1.exr", "trace.color.1.png"}));
-    const ImageData image = readExr(out / "trace.color.0.exr");
+    EXPECT_EQ(filesOf(out), (std::set<std::string>{"accumulate.mean.0.exr", "accumulate.mean.1.exr", "run.json", "trace.0.exr", "trace.0.png",
+                                                   "trace.1.exr", "trace.1.png"}))
+        << "a shown pass of one output gives its name alone, however it was named";
+    const ImageData image = readExr(out / "trace.0.exr");
     EXPECT_EQ(image.width, 64);
     EXPECT_EQ(image.height, 48);
     EXPECT_TRUE(allFinite(image));
     EXPECT_GT(meanOf(image), 0.01);
     EXPECT_EQ(filesOf(run("pass", pathTracer, small)), (std::set<std::string>{"display.0.exr", "display.0.png", "run.json"}));
+    EXPECT_EQ(filesOf(run("many", visibility, {"--size", "16x16", "--frames", "1", "--show", "hits.depth"})),
+              (std::set<std::string>{"hits.depth.0.exr", "hits.depth.0.png", "run.json"}));
 }
 
 TEST_F(RunContract, RunJsonHasTheKeysOfTheContract) {
-    const OrderedJson json = readJson(run("out", pathTracer, with(small, {"--frames", "2", "--seed", "7", "--set", "trace.spp=3"})) / "run.json");
-    for (const char* key : {"lodestir", "graph", "device", "size", "seed", "frames", "setup", "memory"}) EXPECT_TRUE(json.contains(key)) << key;
+    const OrderedJson json =
+        readJson(run("out", pathTracer, with(small, {"--frames", "2", "--seed", "7", "--set", "trace.spp=3"})) / "run.json");
+    for (const char* key : {"lodestir", "graph", "device", "size", "seed", "frames", "setup", "memory"})
+        EXPECT_TRUE(json.contains(key)) << key;
     EXPECT_TRUE(json["lodestir"].is_string());
     EXPECT_FALSE(json["device"]["name"].get<std::string>().empty());
     EXPECT_EQ(json["size"], OrderedJson::array({64, 48}));
@@ -55,7 +60,8 @@ TEST_F(RunContract, RunJsonHasTheKeysOfTheContract) {
         for (const char* pass : {"trace", "accumulate", "display"}) {
             ASSERT_TRUE(frame["passes"].contains(pass)) << pass;
             EXPECT_GT(frame["passes"][pass]["ms"], 0);
-            EXPECT_EQ(keysOf(frame["passes"][pass]["rays"]), (std::vector<std::string>{"primary", "nee", "continue", "replay", "connect", "visibility"}));
+            EXPECT_EQ(keysOf(frame["passes"][pass]["rays"]),
+                      (std::vector<std::string>{"primary", "nee", "continue", "replay", "connect", "visibility"}));
         }
     }
     const OrderedJson& rays = json["frames"][0]["passes"]["trace"]["rays"];
@@ -76,14 +82,15 @@ TEST_F(RunContract, RunJsonHasTheKeysOfTheContract) {
 
 // If this fails, a picture can't be made again from what stands in it.
 TEST_F(RunContract, TheGraphInAnImageMakesTheSameImageAgain) {
-    const Path out = run("out", pathTracer, with(small, {"--frames", "2", "--seed", "3", "--set", "trace.spp=2", "--set", "display.exposure=1.5"}));
+    const Path out =
+        run("out", pathTracer, with(small, {"--frames", "2", "--seed", "3", "--set", "trace.spp=2", "--set", "display.exposure=1.5"}));
     const ExrFile first = readExrFile(out / "display.1.exr");
     ASSERT_TRUE(first.attributes.contains("lodestir"));
     writeFile(folder / "elsewhere/again.json", first.attributes.at("lodestir"));
-    // The graph in it names the shown port in full, and so the file's name does.
-    const ExrFile second = readExrFile(run("again", folder / "elsewhere/again.json", {}) / "display.display.1.exr");
+    const ExrFile second = readExrFile(run("again", folder / "elsewhere/again.json", {}) / "display.1.exr");
     EXPECT_EQ(first.image.values, second.image.values);
-    EXPECT_EQ(OrderedJson::parse(first.attributes.at("lodestir"))["passes"], OrderedJson::parse(second.attributes.at("lodestir"))["passes"]);
+    EXPECT_EQ(OrderedJson::parse(first.attributes.at("lodestir"))["passes"],
+              OrderedJson::parse(second.attributes.at("lodestir"))["passes"]);
 }
 
 TEST_F(RunContract, BuffersAreDumpedAsStructuredArrays) {
@@ -118,8 +125,8 @@ TEST_F(RunContract, VariantsAndSettingsTakeEffect) {
 
 // If this fails, noise isn't averaged away over frames.
 TEST_F(RunContract, AccumulationIsTheMeanOfItsFrames) {
-    const Path out = run("out", pathTracer, with(small, {"--frames", "3", "--show", "accumulate.mean", "--dump", "trace.color"}));
-    const ImageData mean = readExr(out / "accumulate.mean.2.exr");
+    const Path out = run("out", pathTracer, with(small, {"--frames", "3", "--show", "accumulate", "--dump", "trace.color"}));
+    const ImageData mean = readExr(out / "accumulate.2.exr");
     ImageData sum = makeImage(mean.width, mean.height, mean.channels);
     for (int frame = 0; frame < 3; ++frame) {
         const ImageData one = readExr(out / ("trace.color." + std::to_string(frame) + ".exr"));
@@ -130,8 +137,10 @@ TEST_F(RunContract, AccumulationIsTheMeanOfItsFrames) {
 
 TEST_F(RunContract, ReferenceGivesMetrics) {
     const Path first = run("first", pathTracer, small), reference = first / "display.0.exr";
-    const OrderedJson same = readJson(run("same", pathTracer, with(small, {"--reference", reference.string()})) / "run.json")["frames"][0]["metrics"];
-    const OrderedJson other = readJson(run("other", pathTracer, with(small, {"--seed", "2", "--reference", reference.string()})) / "run.json")["frames"][0]["metrics"];
+    const OrderedJson same =
+        readJson(run("same", pathTracer, with(small, {"--reference", reference.string()})) / "run.json")["frames"][0]["metrics"];
+    const OrderedJson other = readJson(run("other", pathTracer, with(small, {"--seed", "2", "--reference", reference.string()})) /
+                                       "run.json")["frames"][0]["metrics"];
     for (const char* metric : {"mse", "relmse", "mae"}) {
         ASSERT_TRUE(same.contains(metric)) << metric;
         EXPECT_EQ(same[metric], 0) << metric;
@@ -139,18 +148,27 @@ TEST_F(RunContract, ReferenceGivesMetrics) {
     }
     // `compare` knows the same metrics and finds the same values.
     const std::string test = (folder / "other/display.0.exr").string();
-    const Output all = lodestir({"compare", test, reference.string(), "--json"}), some = lodestir({"compare", test, reference.string(), "--metrics", "relmse,mse", "--json"});
+    const Output all = lodestir({"compare", test, reference.string(), "--json"}),
+                 some = lodestir({"compare", test, reference.string(), "--metrics", "relmse,mse", "--json"});
     ASSERT_EQ(all.exitCode + some.exitCode, 0) << all.err << some.err;
     EXPECT_EQ(OrderedJson::parse(some.out).size(), 2u);
     const OrderedJson metrics = OrderedJson::parse(all.out);
     EXPECT_EQ(metrics.size(), other.size());
-    for (const auto& [name, value] : metrics.items()) EXPECT_NEAR(value.get<double>(), other[name].get<double>(), 1e-6 * std::abs(value.get<double>())) << name;
+    for (const auto& [name, value] : metrics.items())
+        EXPECT_NEAR(value.get<double>(), other[name].get<double>(), 1e-6 * std::abs(value.get<double>())) << name;
 }
 
 TEST_F(RunContract, WrongUseEndsWithTwo) {
     const std::string graph = pathTracer.string();
-    for (const Arguments& arguments : {Arguments{}, {"fly"}, {"run"}, {"run", graph, "--no-such-option"}, {"run", graph, "--size", "64"}, {"run", graph, "--size", "0x5"},
-                                       {"run", graph, "--frames", "0"}, {"run", graph, "--frames", "many"}, {"compare", "one.exr"}}) {
+    for (const Arguments& arguments : {Arguments{},
+                                       {"fly"},
+                                       {"run"},
+                                       {"run", graph, "--no-such-option"},
+                                       {"run", graph, "--size", "64"},
+                                       {"run", graph, "--size", "0x5"},
+                                       {"run", graph, "--frames", "0"},
+                                       {"run", graph, "--frames", "many"},
+                                       {"compare", "one.exr"}}) {
         const Output output = lodestir(arguments);
         EXPECT_EQ(output.exitCode, 2) << "lodestir " << commandText(arguments) << "\n" << output.err;
         EXPECT_FALSE(output.err.empty()) << commandText(arguments);
@@ -169,7 +187,10 @@ TEST_F(RunContract, HelpEndsWithZero) {
 // If this fails, a script takes what a failed run left for a result.
 TEST_F(RunContract, FailuresEndWithOneAndLeaveNothing) {
     const std::string graph = pathTracer.string(), out = (folder / "out").string();
-    write("bad.json", {{"format", 1}, {"scene", "nowhere.json"}, {"passes", {{"trace", {{"type", "path_trcer"}, {"set", {{"spp", 1}}}}}}}, {"show", "trace"}});
+    write("bad.json", {{"format", 1},
+                       {"scene", "nowhere.json"},
+                       {"passes", {{"trace", {{"type", "path_trcer"}, {"set", {{"spp", 1}}}}}}},
+                       {"show", "trace"}});
     const ImageData tiny = makeImage(3, 3, 3);
     writeExr(folder / "tiny.exr", tiny);
     struct Case {

@@ -9,7 +9,9 @@ class SameBits : public ProgramTest {
 protected:
     /// All image files of a run of the path tracer, by name.
     std::map<std::string, std::string> images(const std::string& out, const std::string& scene, const Arguments& more) {
-        Arguments arguments{"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "96x54", "--frames", "3", "--show", "trace.color", "--dump", "display"};
+        Arguments arguments{
+            "--scene", (sourceFolder / "scenes" / scene).string(), "--size", "96x54", "--frames", "3", "--show", "trace", "--dump",
+            "display"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const Path results = run(out, sourceFolder / "graphs/path_tracer.json", arguments);
         std::map<std::string, std::string> files;
@@ -25,10 +27,10 @@ protected:
         for (const auto& [name, bytes] : first) {
             EXPECT_TRUE(second.at(name) == bytes) << name << " differs between two processes";
         }
-        const ImageData five = readExr(folder / "first/trace.color.0.exr"), next = readExr(folder / "first/trace.color.1.exr");
+        const ImageData five = readExr(folder / "first/trace.0.exr"), next = readExr(folder / "first/trace.1.exr");
         EXPECT_NE(five.values, next.values) << "frames must not repeat their random numbers";
         images("other", scene, {"--seed", "6"});
-        const ImageData six = readExr(folder / "other/trace.color.0.exr");
+        const ImageData six = readExr(folder / "other/trace.0.exr");
         std::size_t lit = 0, same = 0;
         for (std::size_t i = 0; i < five.values.size(); ++i) {
             if (five.values[i] == 0 && six.values[i] == 0) continue;  // what is black is black with any seed
@@ -46,7 +48,8 @@ TEST_F(SameBits, GlossyCornellBox) { holdsFor("cornell_glossy.json"); }
 
 // Whatever order the driver runs workgroups in, a pixel's sum has one order.
 TEST_F(SameBits, WithABarrierBeforeEveryPass) {
-    EXPECT_TRUE(images("few", "cornell_glossy.json", {}) == images("all", "cornell_glossy.json", {"--all-barriers"})) << "a barrier is missing";
+    EXPECT_TRUE(images("few", "cornell_glossy.json", {}) == images("all", "cornell_glossy.json", {"--all-barriers"}))
+        << "a barrier is missing";
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Are two sets of independent frames estimates of the same image? Student's t over frames of block means and of the whole energy.
-// Blocks, because pixels have heavy tails and means of many pixels don't; over frames, because frames are independent and pixels needn't be.
+// Blocks, because pixels have heavy tails and means of many pixels don't; over frames, because frames are independent and pixels
+// needn't be.
 #pragma once
 #include <framework/image/image.h>
 
@@ -24,7 +25,8 @@ inline Mean meanOf(const std::vector<double>& samples) {
     return mean;
 }
 
-/// P(|T| > |t|) for Student's distribution: integral of the density by Simpson's rule in the angle atan(t / sqrt(n)), where it is cos^(n-1).
+/// P(|T| > |t|) for Student's distribution: integral of the density by Simpson's rule in the angle atan(t / sqrt(n)),
+/// where it is cos^(n-1).
 inline double studentTail(double t, double n) {
     const double from = std::atan(std::abs(t) / std::sqrt(n)), to = std::asin(1.0);
     constexpr int steps = 2000;
@@ -53,11 +55,11 @@ inline double welch(const Mean& a, const Mean& b) {
 }
 
 struct Comparison {
-    double energyP = 1;        ///< of the mean over all pixels
-    double worstP = 1;         ///< of the block and channel that differ most, times their number (Bonferroni)
-    double energyRatio = 1;    ///< a / b
-    double halfWidth = 0;      ///< of the 95 % interval of energyRatio: the power, a bias of twice this is seen nearly always
-    double blockWidth = 0;     ///< median over blocks of the same
+    double energyP = 1;      ///< of the mean over all pixels
+    double worstP = 1;       ///< of the block and channel that differ most, times their number (Bonferroni)
+    double energyRatio = 1;  ///< a / b
+    double halfWidth = 0;    ///< of the 95 % interval of energyRatio: the power, a bias of twice this is seen nearly always
+    double blockWidth = 0;   ///< median over blocks of the same
     std::string text;
 
     /// Nothing is rejected at a family-wise 1e-3.
@@ -95,8 +97,9 @@ inline Comparison compareFrames(const std::vector<ImageData>& a, const std::vect
                 if (mb.value > 0) widths.push_back(1.96 * std::sqrt(ma.variance + mb.variance) / mb.value);
                 if (p >= result.worstP) continue;
                 result.worstP = p;
-                worst = "block (" + std::to_string(bx) + ", " + std::to_string(by) + ") channel " + std::to_string(c) + ": " + std::to_string(ma.value) + " +- " +
-                        std::to_string(std::sqrt(ma.variance)) + " against " + std::to_string(mb.value) + " +- " + std::to_string(std::sqrt(mb.variance));
+                worst = "block (" + std::to_string(bx) + ", " + std::to_string(by) + ") channel " + std::to_string(c) + ": " +
+                        std::to_string(ma.value) + " +- " + std::to_string(std::sqrt(ma.variance)) + " against " +
+                        std::to_string(mb.value) + " +- " + std::to_string(std::sqrt(mb.variance));
             }
         }
     }
@@ -108,8 +111,9 @@ inline Comparison compareFrames(const std::vector<ImageData>& a, const std::vect
         std::ranges::nth_element(widths, widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2));
         result.blockWidth = widths[widths.size() / 2];
     }
-    result.text = "energy ratio " + std::to_string(result.energyRatio) + " +- " + std::to_string(result.halfWidth) + " (p " + std::to_string(result.energyP) +
-                  "), blocks +- " + std::to_string(result.blockWidth) + ", worst p " + std::to_string(result.worstP) + (worst.empty() ? "" : " at " + worst);
+    result.text = "energy ratio " + std::to_string(result.energyRatio) + " +- " + std::to_string(result.halfWidth) + " (p " +
+                  std::to_string(result.energyP) + "), blocks +- " + std::to_string(result.blockWidth) + ", worst p " +
+                  std::to_string(result.worstP) + (worst.empty() ? "" : " at " + worst);
     return result;
 }
 

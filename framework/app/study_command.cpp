@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/study_command.h>
+
+#include <framework/app/run_report.h>
+#include <framework/core/log.h>
+#include <framework/image/metrics.h>
+#include <framework/study/report.h>
+#include <framework/study/stage.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace lodestir {
+namespace {
+
+struct StudyOptions {
+    Path study, out;
+    StageOptions stage;
+    std::string shard;
+    bool resume = false;
+};
+
+/// The references of one scene, and the one exposure at which all its errors are measured.
+struct SceneReferences {
+    std::size_t scene = 0;
+    double exposure = 1;
+    std::vector<Halves> frames;  ///< parallel to Study::measure
+};
+
+SceneReferences makeReferences(Stage& stage, const Study& study, std::size_t scene, const Path& folder) {
+    SceneReferences references{.scene = scene};
+    for (const int offset : study.measure) references.frames.push_back(stage.reference(scene, offset, folder));
+    references.exposure = exposureOf(references.frames.front().mean);
+    for (const Halves& halves : references.frames)
+        for (const float value : halves.mean.values)
+            if (!std::isfinite(value))
+                throw Error("the reference of scene " + study.scenes[scene].name + " holds values that are not finite");
+    return references;
+}
+
+std::vector<PassCost> costsOf(const FrameReport& report) {
+    std::vector<PassCost> costs;
+    for (const PassReport& pass : report.passes) {
+        if (pass.setup) continue;
+        PassCost cost{.name = pass.name, .milliseconds = pass.milliseconds};
+        for (std::size_t i = 0; i < rayPurposes.size(); ++i)
+            if (i != RAYS_STEPS) cost.rays[std::string(rayPurposes[i])] = pass.rays[i];
+        costs.push_back(std::move(cost));
+    }
+    return costs;
+}
+
+std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun& run, const std::string& name,
+                               const SceneReferences& references) {
+    std::vector<ResultRow> rows;
+    const std::vector<StagedFrame> frames = stage.render(run);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        ResultRow row{.run = name,
+                      .scene = study.scenes[run.scene].name,
+                      .technique = study.techniques[run.technique].name,
+                      .knobs = knobJson(run.knobs),
+                      .seed = run.seed,
+                      .offset = study.measure[i],
+                      .device = stage.device().name + ", " + std::string(nameOf(stage.rays())),
+                      .milliseconds = frames[i].report.milliseconds,
+                      .passes = costsOf(frames[i].report),
+                      .exposure = references.exposure};
+        for (const std::string& metric : study.metrics) {
+            row.metrics[metric] = measureError(metric, frames[i].image, references.frames[i], references.exposure);
+            if (isNoiseFree(metric)) row.noise[metric] = referenceNoise(metric, references.frames[i], references.exposure);
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+int runStudy(const StudyOptions& options) {
+    const Study study = loadStudy(options.study);
+    const Path out = options.out.empty() ? Path("out") / study.file.stem() : options.out;
+    const Shard shard = options.shard.empty() ? Shard{} : readShard(options.shard);
+    const Path file = out / (shard.count == 1 ? "results.jsonl" : fmt::format("results.{}-of-{}.jsonl", shard.index, shard.count));
+    if (!options.resume && std::filesystem::exists(file))
+        throw Error({file.string(), 0, 0}, "there are results already", "go on with --resume, or name another folder with --out");
+    Stage stage(study, options.stage);
+    stage.check();
+
+    const std::vector<StudyRun> runs = expandRuns(study);
+    std::vector<std::string> names;
+    for (const StudyRun& run : runs) names.push_back(stage.nameOf(run));
+    const std::set<std::string> finished = finishedRuns(study, readResults(out));
+    std::vector<std::size_t> todo;
+    for (std::size_t i = 0; i < runs.size(); ++i)
+        if (shard.holds(i) && !finished.contains(names[i])) todo.push_back(i);
+
+    if (!todo.empty()) {
+        log::note("{} of {} runs to make on {}", todo.size(), runs.size(), stage.device().name);
+        ResultFile results(file);
+        std::unique_ptr<SceneReferences> references;
+        log::Progress progress("runs", todo.size());
+        for (const std::size_t i : todo) {
+            if (!references || references->scene != runs[i].scene)
+                references = std::make_unique<SceneReferences>(makeReferences(stage, study, runs[i].scene, out / "references"));
+            results.add(measure(stage, study, runs[i], names[i], *references));
+            progress.advance();
+        }
+    }
+    const Summary summary = summarize(study, runs, names, readResults(out));
+    writeFile(out / "report.html", reportHtml(study, summary));
+    std::printf("%s", summaryText(study, summary).c_str());
+    if (summary.foreign > 0)
+        log::note("{} rows in {} belong to other versions of the study or of what it runs, and are left out", summary.foreign,
+                  out.string());
+    if (summary.missing > 0) log::note("{} runs are still missing", summary.missing);
+    log::note("{}", (out / "report.html").string());
+    return 0;
+}
+
+}  // namespace
+
+void addStudy(CLI::App& app, std::function<int()>& run) {
+    auto options = std::make_shared<StudyOptions>();
+    CLI::App* command = app.add_subcommand("study", "Measures techniques against each other and writes results.jsonl and report.html.");
+    command->add_option("STUDY", options->study, "study file")->required();
+    command->add_option("--out", options->out, "folder for what is written (out/<name of the study>)");
+    command->add_flag("--resume", options->resume, "keep the results that are there, make what is missing");
+    command->add_option("--shard", options->shard, "make one part of the runs: I/N, with I from 1 to N")
+        ->check([](const std::string& text) {
+            try {
+                readShard(text);
+                return std::string();
+            } catch (const Error& error) {
+                return std::string(error.what());
+            }
+        });
+    command->add_option("--passes", options->stage.passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
+    command->add_option("--device", options->stage.device, "name or index, see `lodestir devices`");
+    command->add_option("--rays", options->stage.rays, "how rays are traced: packet or lane");
+    command->callback([options, &run] { run = [options] { return runStudy(*options); }; });
+}
+
+}  // namespace lodestir

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include <framework/image/metrics.h>
+#include <framework/study/chart.h>
+#include <framework/study/halves.h>
+#include <framework/study/report.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lodestir {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr const char* style = R"(
+body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1280px; margin: 2em auto; padding: 0 1.5em }
+h1 { font-size: 1.6em; margin-bottom: 0 } h2 { margin-top: 2em; border-bottom: 1px solid #ccc } .note { color: #555; max-width: 60em }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1em 0 }
+th, td { padding: 2px 12px; text-align: right; border-bottom: 1px solid #e6e6e6; white-space: nowrap } th { font-weight: 600; border-bottom-color: #888 }
+th:first-child, td:first-child { text-align: left } .pm { color: #777 } .charts { display: flex; flex-wrap: wrap; gap: 1.5em }
+svg { max-width: 100%; height: auto; font-family: system-ui, sans-serif } svg .title { font-size: 14px; font-weight: 600 }
+svg .tick { font-size: 12px; fill: #444 } svg .label { font-size: 13px; fill: #222 } svg .grid { stroke: #e4e4e4 } svg .frame { stroke: #444; fill: none }
+)";
+
+std::string list(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+    return text;
+}
+
+std::string estimateHtml(const Estimate& e) {
+    if (std::isnan(e.halfWidth)) return fmt::format("{:.4g}", e.mean);
+    return fmt::format("{:.4g} <span class=\"pm\">± {:.2g}</span>", e.mean, e.halfWidth);
+}
+
+/// The metric as an axis has it, with its unit.
+std::string axisName(const std::string& metric) {
+    if (metric == "mse") return "mse, radiance²";
+    if (metric == "rmse" || metric == "mae") return metric + ", radiance";
+    if (metric == "mape") return "mape, %";
+    return metric == "psnr" ? "psnr, dB" : metric;
+}
+
+class Report {
+public:
+    Report(const Study& study, const Summary& summary) : study_(study), summary_(summary), pixels_(double(study.size.x) * study.size.y) {
+        for (const std::string& device : summary.devices) device_ += (device_.empty() ? "" : " and ") + device;
+        // The frame that charts without a frame axis show: the event's own, else the last.
+        const bool hasEvent = std::ranges::find(study.measure, 0) != study.measure.end();
+        shown_ = hasEvent ? 0 : study.measure.back();
+    }
+
+    std::string page() const {
+        std::string html =
+            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n";
+        const std::string title = study_.file.stem().string();
+        html += fmt::format("<title>{}</title><style>{}</style></head><body>\n<h1>{}</h1>\n<p>{}</p>\n", escapeHtml(title), style,
+                            escapeHtml(title), escapeHtml(study_.about));
+        html += conditions();
+        for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene) html += sceneSection(scene);
+        return html + "</body></html>\n";
+    }
+
+private:
+    std::string conditions() const {
+        std::string html = fmt::format(
+            "<p class=\"note\">{} × {} pixels, {} seeds, measured on {}. Times are the device's own and medians over seeds (bars: fastest "
+            "to slowest), errors are means over "
+            "seeds with 95 % intervals of Student's t. References have {} samples a pixel",
+            study_.size.x, study_.size.y, study_.seeds.size(), escapeHtml(device_.empty() ? "no device yet" : device_),
+            study_.referenceSamples);
+        std::vector<std::string> clean, noisy;
+        for (const std::string& metric : study_.metrics) (isNoiseFree(metric) ? clean : noisy).push_back(metric);
+        html += " in two independent halves A and B";
+        if (!clean.empty())
+            html += fmt::format(
+                "; {} {} the mean of (x − A)(x − B), which the noise of the reference does not raise (and which may fall below 0 where the "
+                "error is far smaller than that noise)",
+                list(clean), clean.size() == 1 ? "is" : "are");
+        html += ". All seeds are judged by one reference, so that the intervals tell the spread of the technique and not of the reference.";
+        if (!noisy.empty())
+            html += fmt::format(" {} {} measured against (A + B) / 2 and include that image's noise.", list(noisy),
+                                noisy.size() == 1 ? "is" : "are");
+        if (study_.warmup > 0) html += fmt::format(" Frames of warm-up before frame 0: {}.", study_.warmup);
+        if (device_.find("llvmpipe") != std::string::npos) html += " Times on a CPU driver say nothing of a GPU; rays and ratios do.";
+        if (summary_.missing > 0) html += fmt::format(" <b>{} runs are still missing.</b>", summary_.missing);
+        html += "</p>\n<ul class=\"note\">\n";
+        for (const std::string& metric : study_.metrics)
+            html += fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(metricAbout(metric)));
+        return html + "</ul>\n";
+    }
+
+    std::string labelOf(const Cell& cell, std::size_t knobs) const {
+        const std::string text = knobText(cell.knobs, knobs);
+        return study_.techniques[cell.technique].name + (text.empty() ? "" : ", " + text);
+    }
+    std::string labelOf(const Cell& cell) const { return labelOf(cell, cell.knobs.size()); }
+    /// Of the curve that a cell is a point of: its last knob runs along it.
+    std::string curveOf(const Cell& cell) const { return labelOf(cell, cell.knobs.empty() ? 0 : cell.knobs.size() - 1); }
+
+    std::string sceneSection(std::size_t scene) const {
+        std::vector<const Cell*> cells;
+        for (const Cell& cell : summary_.cells)
+            if (cell.scene == scene && cell.seeds > 0) cells.push_back(&cell);
+        std::string html = fmt::format("<h2>{}</h2>\n", escapeHtml(study_.scenes[scene].name));
+        if (cells.empty()) return html + "<p>Nothing measured yet.</p>\n";
+        html += "<div class=\"charts\">\n";
+        for (const std::string& chart : study_.charts) html += charts(chart, cells);
+        return html + "</div>\n" + table(cells);
+    }
+
+    std::string table(const std::vector<const Cell*>& cells) const {
+        std::string html =
+            "<table><tr><th>technique</th><th>frame</th><th>seeds</th><th>ms</th><th>fastest – slowest</th><th>rays a pixel</th>";
+        for (const std::string& metric : study_.metrics) html += fmt::format("<th>{}</th>", escapeHtml(metric));
+        html += "</tr>\n";
+        for (const Cell* cell : cells) {
+            html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>",
+                                escapeHtml(labelOf(*cell)), cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest,
+                                cell->rays.mean / pixels_);
+            for (const std::string& metric : study_.metrics)
+                html += cell->metrics.contains(metric) ? fmt::format("<td>{}</td>", estimateHtml(cell->metrics.at(metric))) : "<td></td>";
+            html += "</tr>\n";
+        }
+        std::string noise;
+        for (const std::string& metric : study_.metrics)
+            if (cells.front()->noise.contains(metric))
+                noise += fmt::format("{}{} {:.3g}", noise.empty() ? "" : ", ", metric, cells.front()->noise.at(metric));
+        html += "</table>\n";
+        return noise.empty()
+                   ? html
+                   : html + fmt::format("<p class=\"note\">Noise of the reference itself, taken out above: {}.</p>\n", escapeHtml(noise));
+    }
+
+    std::string charts(const std::string& name, const std::vector<const Cell*>& cells) const {
+        if (name == "time_by_pass") return timeByPass(cells);
+        std::string html;
+        for (const std::string& metric : study_.metrics) {
+            if (name == "error_vs_time") html += errorAlong(metric, cells, true);
+            if (name == "error_vs_rays") html += errorAlong(metric, cells, false);
+            if (name == "error_vs_frame" && study_.measure.size() > 1) html += errorByFrame(metric, cells, false);
+            if (name == "stability" && study_.measure.size() > 1 && isError(metric)) html += errorByFrame(metric, cells, true);
+        }
+        return html;
+    }
+
+    /// Never negative but for noise, and smaller is better: fit for a logarithmic axis.
+    static bool isError(const std::string& metric) { return metric != "bias" && metric != "psnr"; }
+
+    static ChartSeries& seriesNamed(std::vector<ChartSeries>& all, const std::string& name) {
+        const auto found = std::ranges::find(all, name, &ChartSeries::name);
+        return found != all.end() ? *found : all.emplace_back(ChartSeries{name, {}});
+    }
+
+    static ChartPoint pointOf(double x, const Estimate& e, std::string about) {
+        const bool hasInterval = !std::isnan(e.halfWidth);
+        return {.x = x,
+                .y = e.mean,
+                .low = hasInterval ? e.mean - e.halfWidth : nan,
+                .high = hasInterval ? e.mean + e.halfWidth : nan,
+                .left = nan,
+                .right = nan,
+                .about = std::move(about)};
+    }
+
+    std::string errorAlong(const std::string& metric, const std::vector<const Cell*>& cells, bool time) const {
+        LineChart chart{.title = metric + (time ? " against time" : " against rays") +
+                                 (study_.measure.size() > 1 ? fmt::format(", frame {}", shown_) : ""),
+                        .xLabel = time ? "time of the frame, ms (" + device_ + ")" : "rays a pixel",
+                        .yLabel = axisName(metric),
+                        .logX = true,
+                        .logY = isError(metric)};
+        for (const Cell* cell : cells) {
+            if (cell->offset != shown_ || !cell->metrics.contains(metric)) continue;
+            const Estimate& e = cell->metrics.at(metric);
+            ChartPoint point = pointOf(time ? cell->milliseconds : cell->rays.mean / pixels_, e,
+                                       fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell),
+                                                   cell->milliseconds, cell->rays.mean / pixels_, metric, e.mean, e.halfWidth));
+            if (time) point.left = cell->fastest, point.right = cell->slowest;
+            seriesNamed(chart.series, curveOf(*cell)).points.push_back(std::move(point));
+        }
+        return drawLines(chart);
+    }
+
+    /// `relative`: the error as a multiple of the first measured frame's, which shows what an event does to a technique whatever its level.
+    std::string errorByFrame(const std::string& metric, const std::vector<const Cell*>& cells, bool relative) const {
+        LineChart chart{.title = relative ? fmt::format("Stability: {} against that of frame {}", metric, study_.measure.front())
+                                          : metric + " against the frame",
+                        .xLabel = "frame, counted from the event",
+                        .yLabel = relative ? metric + ", ratio" : axisName(metric),
+                        .logX = false,
+                        .logY = isError(metric)};
+        const Cell* first = nullptr;
+        for (const Cell* cell : cells) {
+            if (cell->offset == study_.measure.front()) first = cell;
+            if (!first || !cell->metrics.contains(metric)) continue;
+            const Estimate e = relative ? estimateRatio(cell->values.at(metric), first->values.at(metric)) : cell->metrics.at(metric);
+            seriesNamed(chart.series, labelOf(*cell))
+                .points.push_back(pointOf(cell->offset, e,
+                                          fmt::format("{}, frame {}: {:.4g} ± {:.2g}", labelOf(*cell), cell->offset, e.mean, e.halfWidth)));
+        }
+        return drawLines(chart);
+    }
+
+    std::string timeByPass(const std::vector<const Cell*>& cells) const {
+        std::vector<Bar> bars;
+        for (const Cell* cell : cells) {
+            if (cell->offset != shown_) continue;
+            Bar bar{.name = labelOf(*cell)};
+            for (const PassSummary& pass : cell->passes) bar.parts.push_back({pass.name, pass.milliseconds});
+            bars.push_back(std::move(bar));
+        }
+        return drawBars(study_.measure.size() > 1 ? fmt::format("Time by pass, frame {}", shown_) : "Time by pass",
+                        "mean time, ms (" + device_ + ")", bars);
+    }
+
+    const Study& study_;
+    const Summary& summary_;
+    double pixels_;
+    std::string device_;
+    int shown_ = 0;
+};
+
+}  // namespace
+
+std::string reportHtml(const Study& study, const Summary& summary) { return Report(study, summary).page(); }
+
+}  // namespace lodestir

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+#include <framework/core/log.h>
+#include <framework/graph/scene_node.h>
+#include <framework/image/exr.h>
+#include <framework/study/content.h>
+#include <framework/study/stage.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lodestir {
+namespace {
+
+/// Samples of one frame of a reference: frames of a second or so, because long ones are taken for a hang on GPUs that also draw the screen.
+constexpr std::uint64_t samplesPerFrame = 1 << 23;
+/// Studies have seeds below 2^31.
+constexpr std::uint32_t firstReferenceSeed = 1u << 31, seedsPerHalf = 1u << 30;
+
+ImageData colorOf(const ImageData& image, const std::string& name) {
+    if (image.channels < 3) throw Error("the measured port " + name + " has no colour", "name one with \"port\"");
+    return image.channels == 3 ? image : firstChannels(image, 3);
+}
+
+/// What stands before tone mapping: errors are measured in radiance.
+Source linearSource(const Graph& graph, Source source) {
+    while (graph.nodes[std::size_t(source.node)].type == "tone_map") {
+        const GraphNode& node = graph.nodes[std::size_t(source.node)];
+        const auto wired = std::ranges::find_if(node.inputs, [](const auto& input) { return input.has_value(); });
+        if (wired == node.inputs.end()) break;
+        source = **wired;
+    }
+    return source;
+}
+
+/// "trace.spp" of the one pass that has such a parameter.
+std::string samplesParameter(const Graph& graph, const Where& where) {
+    std::string name;
+    for (const GraphNode& node : graph.nodes)
+        if (!node.off && std::ranges::find(node.pass->parameters, "spp", &Parameter::name) != node.pass->parameters.end()) {
+            if (!name.empty()) throw Error(where, "the reference has two passes with a parameter \"spp\"");
+            name = node.name + ".spp";
+        }
+    if (name.empty()) throw Error(where, "the reference has no pass with a parameter \"spp\"");
+    return name;
+}
+
+/// A --set of ours is at a place of the study file.
+Problem placed(Problem problem, const StudyGraph& choice, const std::vector<StudySetting>& knobs) {
+    if (!problem.where.file.starts_with("--set")) return problem;
+    const std::string text = problem.where.file.substr(5);
+    problem.where = choice.where;
+    for (const auto* list : {&choice.set, &knobs})
+        for (const StudySetting& setting : *list)
+            if (text.starts_with(" " + setting.name + "=" + setting.value.dump(-1))) problem.where = setting.value.where();
+    return problem;
+}
+
+}  // namespace
+
+Stage::Stage(const Study& study, const StageOptions& options) : study_(study), options_(options), libraries_(options.passes) {
+    libraries_.addBuiltIn("scene", scenePlugin());
+}
+
+Stage::~Stage() = default;
+
+StagedGraph Stage::build(const StudyGraph& choice, const std::vector<StudySetting>& knobs, std::size_t scene, std::uint32_t seed) {
+    GraphOptions options{
+        .scene = std::filesystem::absolute(study_.scenes[scene].file), .size = study_.size, .seed = seed, .variant = choice.variant};
+    for (const auto* list : {&choice.set, &knobs})
+        for (const StudySetting& setting : *list) options.set.push_back(setting.name + "=" + setting.value.dump(-1));
+    try {
+        StagedGraph staged{.graph = buildGraph(loadDescription(choice.graph, options), libraries_)};
+        staged.port =
+            choice.port.empty() ? linearSource(staged.graph, staged.graph.show) : findSource(staged.graph, choice.port, choice.where);
+        const Port& port = staged.graph.port(staged.port);
+        if (port.type.kind != PortType::Kind::image)
+            throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
+        if (sizeOf(staged.graph, staged.port.node, staged.port.port, study_.size) != study_.size)
+            throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
+                        "name another with \"port\"");
+        return staged;
+    } catch (const Error& error) {
+        std::vector<Problem> problems;
+        for (const Problem& problem : error.problems()) problems.push_back(placed(problem, choice, knobs));
+        throw Error(std::move(problems));
+    }
+}
+
+void Stage::check() {
+    Problems problems;
+    std::vector<std::string> said;
+    const auto attempt = [&](const auto& part) {
+        try {
+            part();
+        } catch (const Error& error) {
+            for (const Problem& problem : error.problems()) {
+                if (std::ranges::find(said, problem.text()) != said.end()) continue;  // the same for each value and scene
+                said.push_back(problem.text());
+                problems.add(problem.where, problem.what, problem.hint);
+            }
+        }
+    };
+    for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
+        attempt([&] { samplesParameter(build(study_.reference, {}, scene, 0).graph, study_.reference.where); });
+    for (const StudyRun& run : expandRuns(study_))
+        if (run.seed == study_.seeds.front())
+            attempt([&] { build(study_.techniques[run.technique].graph, run.knobs, run.scene, run.seed); });
+    problems.raise();
+}
+
+void Stage::open() {
+    if (device_) return;
+    device_ = std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options_.device});
+    rays_ = chooseRayBody(device_->facts(), options_.rays);
+}
+
+const gpu::DeviceFacts& Stage::device() {
+    open();
+    return device_->facts();
+}
+
+RayBody Stage::rays() {
+    open();
+    return rays_;
+}
+
+const Scene& Stage::scene(std::size_t index) {
+    if (loaded_ != index) {
+        loaded_.reset();
+        scene_ = loadScene(study_.scenes[index].file);
+        content_ = contentOf(scene_);
+        loaded_ = index;
+    }
+    return scene_;
+}
+
+const Hash& Stage::sceneContent(std::size_t index) {
+    scene(index);
+    return content_;
+}
+
+std::string Stage::nameOf(const StudyRun& run) {
+    const StudyGraph& choice = study_.techniques[run.technique].graph;
+    const StagedGraph staged = build(choice, run.knobs, run.scene, run.seed), reference = build(study_.reference, {}, run.scene, 0);
+    Hash hash;
+    hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
+    hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
+    for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
+    for (const int offset : study_.measure) hash.addValue(offset);
+    for (const std::string& metric : study_.metrics) hash.add(metric + "\n");
+    return hash.hex();
+}
+
+std::vector<StagedFrame> Stage::render(const StudyRun& run) {
+    open();
+    StagedGraph staged = build(study_.techniques[run.technique].graph, run.knobs, run.scene, run.seed);
+    Runner runner(*device_, staged.graph, scene(run.scene), {.rays = rays_, .pinned = {staged.port}});
+    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
+    std::vector<StagedFrame> frames;
+    for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
+        FrameReport report = runner.run();
+        if (std::ranges::find(study_.measure, offset) == study_.measure.end()) continue;
+        frames.push_back({std::move(report), colorOf(runner.readImage(staged.port), staged.graph.nameOf(staged.port))});
+    }
+    if (!device_->validationMessages().empty()) throw Error("validation: " + device_->validationMessages().front());
+    return frames;
+}
+
+Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder) {
+    StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
+    const std::string samplesName = samplesParameter(staged.graph, study_.reference.where);
+    const int frame = study_.event + offset;
+    const Hash content = Hash()
+                             .addValue(sceneContent(sceneIndex))
+                             .addValue(contentOf(staged.graph))
+                             .add(staged.graph.nameOf(staged.port))
+                             .addValue(frame)
+                             .addValue(study_.referenceSamples);
+    const auto half = [&](std::uint32_t index) {
+        const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
+        if (std::filesystem::is_regular_file(file)) return readExr(file);
+        ImageData image = renderHalf(staged, samplesName, scene(sceneIndex), frame, index);
+        writeExr(file, image, {.attributes = {{"lodestir", staged.graph.resolved().dump(-1)}}});
+        return image;
+    };
+    ImageData a = half(0);
+    return {std::move(a), half(1)};
+}
+
+/// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
+ImageData Stage::renderHalf(StagedGraph& staged, const std::string& samplesName, const Scene& scene, int frame, std::uint32_t half) {
+    open();
+    const int total = study_.referenceSamples / 2;
+    const auto pixels = std::uint64_t(study_.size.x) * study_.size.y;
+    const int most = int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024));
+    std::vector<double> sum(pixels * 3);
+    std::uint32_t seed = firstReferenceSeed + half * seedsPerHalf;
+    setParameter(staged.graph, samplesName, Json(std::min(most, total)));
+    staged.graph.description.seed = seed;
+    Runner runner(*device_, staged.graph, scene, {.rays = rays_, .pinned = {staged.port}});
+    log::Progress progress(fmt::format("reference of frame {}, half {}", frame, half == 0 ? "A" : "B"), std::size_t(total));
+    for (int done = 0; done < total; ++seed) {
+        const int samples = std::min(most, total - done);
+        setParameter(staged.graph, samplesName, Json(samples));
+        staged.graph.description.seed = seed;
+        runner.reset();
+        runner.setFrame(std::uint32_t(frame));
+        runner.run();
+        const ImageData image = colorOf(runner.readImage(staged.port), staged.graph.nameOf(staged.port));
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]) * samples / total;
+        done += samples;
+        progress.advance(std::size_t(samples));
+    }
+    ImageData result = makeImage(int(study_.size.x), int(study_.size.y), 3);
+    std::ranges::transform(sum, result.values.begin(), [](double value) { return float(value); });
+    return result;
+}
+
+}  // namespace lodestir

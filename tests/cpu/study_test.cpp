@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+// The study core without a device: study files and what is said of wrong ones, runs, statistics, errors by halves, results that survive a kill, reports.
+#include <framework/core/error.h>
+#include <framework/image/metrics.h>
+#include <framework/study/chart.h>
+#include <framework/study/halves.h>
+#include <framework/study/report.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace lodestir {
+namespace {
+
+class StudyTest : public testing::Test {
+protected:
+    StudyTest() {
+        std::string name = testing::TempDir() + "lodestir_study_XXXXXX";
+        folder = ::mkdtemp(name.data());
+        writeFile(folder / "box.json", "{}");
+        writeFile(folder / "hall.json", "{}");
+        writeFile(folder / "graph.json", "{}");
+    }
+    ~StudyTest() override { std::filesystem::remove_all(folder); }
+
+    Path write(const std::string& text) {
+        writeFile(folder / "study.json", text);
+        return folder / "study.json";
+    }
+    /// What is said of a study file, line by line, without the folder.
+    std::vector<std::string> complaints(const std::string& text) {
+        std::vector<std::string> lines;
+        try {
+            loadStudy(write(text));
+        } catch (const Error& error) {
+            for (const Problem& problem : error.problems()) lines.push_back(problem.text().substr(folder.string().size() + 1));
+        }
+        return lines;
+    }
+
+    Path folder;
+    const std::string good = R"({ "format": 1, "about": "two knobs",
+      "scenes": ["box.json", "hall.json"], "size": [32, 18], "seeds": 3,
+      "frames": { "warmup": 4, "event": 10, "measure": [2, -1, 0] },
+      "reference": { "graph": "graph.json", "spp": 64 },
+      "techniques": { "plain": { "graph": "graph.json", "vary": { "a.mode": ["x", "y"], "a.spp": [1, 2, 4] } },
+                      "other": { "graph": "graph.json", "variant": "v", "set": { "a.spp": 2 } } },
+      "metrics": ["mse"], "charts": ["error_vs_time"] })";
+};
+
+TEST_F(StudyTest, ReadsTheContract) {
+    const Study study = loadStudy(write(good));
+    ASSERT_EQ(study.scenes.size(), 2u);
+    EXPECT_EQ(study.scenes[1].name, "hall");
+    EXPECT_EQ(study.size, glm::uvec2(32, 18));
+    EXPECT_EQ(study.seeds, (std::vector<std::uint32_t>{1, 2, 3}));
+    EXPECT_EQ(study.warmup, 4);
+    EXPECT_EQ(study.event, 10);
+    EXPECT_EQ(study.measure, (std::vector<int>{-1, 0, 2}));
+    EXPECT_EQ(study.referenceSamples, 64);
+    ASSERT_EQ(study.techniques.size(), 2u);
+    EXPECT_EQ(study.techniques[1].graph.variant, "v");
+    EXPECT_EQ(study.techniques[1].graph.set.at(0).name, "a.spp");
+    EXPECT_EQ(study.techniques[1].graph.graph, folder / "graph.json");
+}
+
+TEST_F(StudyTest, TellsAllErrorsAtOnceWithPlaces) {
+    const std::vector<std::string> said = complaints(R"({ "format": 1,
+"scenes": ["box.json", "nowhere.json"], "size": [32, 0],
+"seeds": 0, "frames": { "warmup": 4, "event": 2, "measure": [-9] },
+"reference": { "graph": "graph.json", "spp": 63 },
+"techniques": { "plain": { "graph": "graph.json", "set": { "spp": 1, "a.b": [1] }, "vary": { "a.spp": [1, 1] } } },
+"metrics": ["relmes"], "chart": [], "mask": "switched" })");
+    const std::vector<std::string> expected{
+        "study.json:2:24: there is no file",
+        "study.json:2:54: the height must be 1..16384, not 0",
+        "study.json:3:10: the number of seeds must be 1..100000, not 0",
+        "study.json:3:23: 4 frames of warm-up don't fit before frame 2",
+        "study.json:3:62: a measured frame must be -4..1000000000, not -9",
+        "study.json:4:46: the reference's \"spp\" must be even; it is rendered in two halves",
+        "study.json:5:60: \"spp\" names no parameter; write \"pass.parameter\"",
+        "study.json:5:107: \"a.spp\" takes 1 twice",
+        "study.json:6:13: unknown metric \"relmes\"; did you mean \"relmse\"?",
+        "study.json:6:24: ",
+        "study.json:6:45: errors inside a mask are not measured; leave \"mask\" out to measure whole frames"};
+    for (std::size_t i = 0; i < std::max(said.size(), expected.size()); ++i)
+        EXPECT_TRUE(i < said.size() && i < expected.size() && said[i].starts_with(expected[i]))
+            << "said: " << (i < said.size() ? said[i] : "nothing") << "\nexpected: " << (i < expected.size() ? expected[i] : "nothing");
+}
+
+TEST_F(StudyTest, WhatIsMissingIsSaid) {
+    const std::vector<std::string> said = complaints("{}");
+    std::string all;
+    for (const std::string& line : said) all += line + "\n";
+    for (const char* key : {"format", "scenes", "seeds", "reference", "techniques"})
+        EXPECT_NE(all.find("needs \"" + std::string(key) + "\""), std::string::npos) << key;
+    EXPECT_EQ(said.size(), 5u) << all;
+}
+
+TEST_F(StudyTest, ExpandsToEveryCombinationOnce) {
+    const Study study = loadStudy(write(good));
+    const std::vector<StudyRun> runs = expandRuns(study);
+    EXPECT_EQ(runs.size(), 2u * 3u * (2u * 3u + 1u));  // scenes x seeds x (modes x samples + 1)
+    std::set<std::string> different;
+    for (const StudyRun& run : runs)
+        different.insert(std::to_string(run.scene) + " " + std::to_string(run.technique) + " " + std::to_string(run.seed) +
+                         knobJson(run.knobs).dump());
+    EXPECT_EQ(different.size(), runs.size());
+    EXPECT_EQ(knobJson(runs[1].knobs).dump(), R"({"a.mode":"x","a.spp":2})") << "the last knob varies fastest";
+    EXPECT_EQ(knobText(runs[1].knobs, 2), "mode x, spp 2");
+
+    std::vector<int> taken(runs.size(), 0);
+    for (const char* text : {"1/3", "2/3", "3/3"})
+        for (std::size_t i = 0; i < runs.size(); ++i) taken[i] += readShard(text).holds(i);
+    EXPECT_EQ(taken, std::vector<int>(runs.size(), 1)) << "shards share the runs out";
+    for (const char* text : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/3x", "-1/3"}) EXPECT_THROW(readShard(text), Error) << text;
+}
+
+// Tables of Student's t, two-sided 95 %.
+TEST(Statistics, StudentQuantilesAreThoseOfTheTables) {
+    const std::vector<std::pair<int, double>> table{{1, 12.7062}, {2, 4.30265},  {3, 3.18245},  {4, 2.77645},
+                                                    {7, 2.36462}, {15, 2.13145}, {30, 2.04227}, {1000, 1.96234}};
+    for (const auto& [freedom, t] : table) EXPECT_NEAR(studentQuantile(0.975, freedom), t, 1e-5 * t) << freedom;
+    EXPECT_NEAR(studentQuantile(0.95, 5), 2.01505, 1e-5);
+    EXPECT_NEAR(studentQuantile(0.025, 3), -3.18245, 1e-4);
+    EXPECT_NEAR(studentQuantile(0.5, 3), 0, 1e-12);
+}
+
+TEST(Statistics, MeansHaveTheIntervalsOfStudent) {
+    const std::vector<double> values{2, 4, 4, 6};  // mean 4, variance 8/3, of the mean 2/3
+    const Estimate e = estimateMean(values);
+    EXPECT_DOUBLE_EQ(e.mean, 4);
+    EXPECT_NEAR(e.halfWidth, 3.182446 * std::sqrt(2.0 / 3.0), 1e-5);
+    EXPECT_EQ(e.count, 4);
+    EXPECT_TRUE(std::isnan(estimateMean(std::vector<double>{1}).halfWidth)) << "one run says nothing of its spread";
+    EXPECT_TRUE(std::isnan(estimateMean({}).mean));
+    EXPECT_DOUBLE_EQ(medianOf({5, 1, 3}), 3);
+    EXPECT_DOUBLE_EQ(medianOf({5, 1, 3, 4}), 3.5);
+    const Estimate ratio = estimateRatio(std::vector<double>{2, 4, 8}, std::vector<double>{1, 2, 4});
+    EXPECT_DOUBLE_EQ(ratio.mean, 2);
+    EXPECT_NEAR(ratio.halfWidth, 0, 1e-12) << "twice as much every time";
+}
+
+TEST(Statistics, IntervalsHoldTheMeanNineteenTimesInTwenty) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal(3, 2);
+    int holds = 0;
+    constexpr int trials = 4000;
+    for (int trial = 0; trial < trials; ++trial) {
+        std::vector<double> values(4);
+        for (double& value : values) value = normal(random);
+        const Estimate e = estimateMean(values);
+        holds += std::abs(e.mean - 3) <= e.halfWidth;
+    }
+    EXPECT_NEAR(double(holds) / trials, 0.95, 4 * std::sqrt(0.95 * 0.05 / trials));
+}
+
+ImageData noisy(const ImageData& truth, double sigma, std::mt19937& random) {
+    std::normal_distribution<float> normal(0, float(sigma));
+    ImageData image = truth;
+    for (float& value : image.values) value += normal(random);
+    return image;
+}
+
+ImageData gradient() {
+    ImageData truth = makeImage(64, 64, 3);
+    for (std::size_t i = 0; i < truth.values.size(); ++i) truth.values[i] = 0.5f + float(i % 97) / 97;
+    return truth;
+}
+
+// If this fails, a technique is blamed for the noise of its reference.
+TEST(Halves, TheNoiseOfTheReferenceIsTakenOut) {
+    std::mt19937 random(7);
+    const ImageData truth = gradient();
+    constexpr double sigma = 0.05, referenceSigma = 0.1;  // the reference noisier than what it judges
+    std::vector<double> errors, naive, relative, floors;
+    for (int i = 0; i < 40; ++i) {
+        const Halves halves(noisy(truth, referenceSigma, random), noisy(truth, referenceSigma, random));
+        const ImageData test = noisy(truth, sigma, random);
+        errors.push_back(measureError("mse", test, halves, 1));
+        relative.push_back(measureError("relmse", test, halves, 1));
+        naive.push_back(evaluate("mse", test, halves.mean));
+        floors.push_back(referenceNoise("mse", halves, 1));
+        // The definition itself.
+        double sum = 0;
+        for (std::size_t k = 0; k < test.values.size(); ++k)
+            sum += (double(test.values[k]) - halves.a.values[k]) * (double(test.values[k]) - halves.b.values[k]);
+        EXPECT_NEAR(errors.back(), sum / double(test.values.size()), 1e-7);
+    }
+    const Estimate e = estimateMean(errors);
+    EXPECT_LT(e.halfWidth, 0.03 * sigma * sigma);
+    EXPECT_NEAR(e.mean, sigma * sigma, 2 * e.halfWidth);
+    EXPECT_NEAR(estimateMean(floors).mean, referenceSigma * referenceSigma / 2, 0.02 * referenceSigma * referenceSigma)
+        << "variance of the mean of two";
+    EXPECT_GT(estimateMean(naive).mean, 2 * sigma * sigma) << "without halves the error is three times too large";
+    double expected = 0;  // sigma^2 / (mean(r)^2 + 0.01), averaged over pixels
+    for (std::size_t p = 0; p < truth.pixelCount(); ++p) {
+        const double mean = (truth.values[3 * p] + truth.values[3 * p + 1] + truth.values[3 * p + 2]) / 3.0;
+        expected += sigma * sigma / (mean * mean + 0.01) / double(truth.pixelCount());
+    }
+    EXPECT_NEAR(estimateMean(relative).mean, expected, 0.06 * expected);
+}
+
+TEST(Halves, AnErrorIsWhatItIs) {
+    std::mt19937 random(3);
+    const ImageData truth = gradient();
+    const Halves halves(truth, truth);
+    ImageData brighter = truth;
+    for (float& value : brighter.values) value += 0.25f;
+    EXPECT_NEAR(measureError("mse", brighter, halves, 1), 0.0625, 1e-6);
+    EXPECT_EQ(measureError("mse", truth, halves, 1), 0);
+    EXPECT_NEAR(measureError("mae", brighter, halves, 1), 0.25, 1e-6);
+    EXPECT_FALSE(isNoiseFree("mae"));
+    ImageData broken = truth;
+    broken.values[5] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(measureError("mse", broken, halves, 1))) << "a broken pixel is seen";
+    EXPECT_THROW(Halves(truth, makeImage(2, 2, 3)), Error);
+}
+
+ResultRow exampleRow(const std::string& run, int offset, double error) {
+    ResultRow row{
+        .run = run, .scene = "box", .technique = "plain", .seed = 2, .offset = offset, .device = "a device", .milliseconds = 12.5};
+    row.knobs["a.spp"] = 4;
+    row.passes = {{"trace", 10, {{"primary", 100}, {"nee", 50}}}, {"display", 2.5, {{"primary", 0}}}};
+    row.metrics = {{"mse", error}};
+    row.noise = {{"mse", 0.25}};
+    row.exposure = 2;
+    return row;
+}
+
+TEST_F(StudyTest, RowsComeBackAsTheyWere) {
+    const ResultRow row = exampleRow("abc", -3, 0.1), back = rowOf(toJson(row));
+    EXPECT_EQ(toJson(back), toJson(row));
+    EXPECT_EQ(back.rays(), 150u);
+    EXPECT_EQ(back.offset, -3);
+    EXPECT_EQ(back.metrics.at("mse"), 0.1) << "to the last bit";
+    const ResultRow broken = rowOf(nlohmann::ordered_json::parse(toJson(exampleRow("abc", 0, std::nan(""))).dump()));
+    EXPECT_TRUE(std::isnan(broken.metrics.at("mse")));
+}
+
+// If this fails, a killed study cannot go on, or counts half a row.
+TEST_F(StudyTest, ResultsSurviveACutLine) {
+    const Path file = folder / "results.jsonl";
+    { ResultFile(file).add({exampleRow("one", 0, 1), exampleRow("one", 1, 2)}); }
+    const std::string whole = readText(file);
+    const std::string line = toJson(exampleRow("two", 0, 3)).dump();
+    for (const std::size_t length : {std::size_t(1), line.size() / 2, line.size()}) {  // the last: only the line feed is missing
+        std::ofstream(file, std::ios::app) << line.substr(0, length);
+        EXPECT_EQ(readResults(folder).size(), 2u);
+        { ResultFile(file).add({exampleRow("three", 0, 4)}); }
+        const std::vector<ResultRow> rows = readResults(folder);
+        ASSERT_EQ(rows.size(), 3u);
+        EXPECT_EQ(rows[2].run, "three");
+        writeFile(file, whole);
+    }
+    { ResultFile(folder / "results.1-of-2.jsonl").add({exampleRow("four", 0, 5), exampleRow("one", 1, 7)}); }
+    const std::vector<ResultRow> rows = readResults(folder);
+    EXPECT_EQ(rows.size(), 3u) << "shards' files are read together, and no frame counts twice";
+
+    writeFile(file, "{\"run\": 1}\n" + whole);
+    try {
+        readResults(folder);
+        FAIL() << "a damaged line was taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.problems()[0].where.line, 1);
+    }
+    EXPECT_TRUE(readResults(folder / "nothing").empty());
+}
+
+TEST_F(StudyTest, SummariesCountWhatIsThere) {
+    const Study study = loadStudy(
+        write(R"({ "format": 1, "about": "a < b", "scenes": ["box.json"], "seeds": 3, "frames": { "warmup": 1, "measure": [0, 1] },
+        "size": [10, 5], "reference": { "graph": "graph.json", "spp": 2 }, "techniques": { "plain": { "graph": "graph.json", "vary": { "a.spp": [2, 4] } } }, "metrics": ["mse"] })"));
+    const std::vector<StudyRun> runs = expandRuns(study);
+    ASSERT_EQ(runs.size(), 6u);
+    std::vector<std::string> names;
+    std::vector<ResultRow> rows;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        names.push_back("run " + std::to_string(i));
+        if (i == 5) break;  // never made
+        rows.push_back(exampleRow(names[i], 0, 1.0 / double(i + 1)));
+        if (i != 4) rows.push_back(exampleRow(names[i], 1, 2));  // run 4 was cut between its frames
+    }
+    rows.push_back(exampleRow("of another graph", 0, 1000));
+    EXPECT_EQ(finishedRuns(study, rows), (std::set<std::string>{"run 0", "run 1", "run 2", "run 3"}));
+    const Summary summary = summarize(study, runs, names, rows);
+    EXPECT_EQ(summary.missing, 2u);
+    EXPECT_EQ(summary.foreign, 1u);
+    ASSERT_EQ(summary.cells.size(), 4u);  // two knob values, two frames
+    EXPECT_EQ(summary.cells[0].seeds, 2);
+    EXPECT_NEAR(summary.cells[0].metrics.at("mse").mean, (1 + 1.0 / 3) / 2, 1e-12);
+    EXPECT_NEAR(summary.cells[0].metrics.at("mse").halfWidth, 12.7062 * (1 - 1.0 / 3) / 2, 1e-4);
+    EXPECT_EQ(summary.cells[0].rays.mean, 150);
+    EXPECT_EQ(summary.cells[3].offset, 1);
+    EXPECT_NE(summaryText(study, summary).find("plain, spp 4"), std::string::npos);
+
+    const std::string html = reportHtml(study, summary);
+    for (const char* part : {"<svg", "mse against time", "time of the frame, ms (a device)", "rays a pixel", "2 runs are still missing",
+                             "a &lt; b", "Time by pass", "mse against the frame", "Stability"})
+        EXPECT_NE(html.find(part), std::string::npos) << part;
+    for (const char* part : {"http", "<script", "nan", "inf,", "<img"})
+        EXPECT_EQ(html.find(part), std::string::npos) << part << ": the page must stand alone";
+}
+
+TEST(Chart, LogarithmicAxesPlaceDecadesEvenly) {
+    LineChart chart{.title = "t", .xLabel = "x, ms", .yLabel = "y", .logX = true, .logY = true};
+    const double none = std::nan("");
+    for (const double v : {1.0, 10.0, 100.0})
+        chart.series.resize(1), chart.series[0].points.push_back({v, 1 / v, none, none, none, none, "p"});
+    chart.series[0].points.push_back({10, -1, none, none, none, none, "below"});
+    const std::string svg = drawLines(chart);
+    std::vector<double> centres;
+    for (std::size_t at = 0; (at = svg.find("<title>p</title>", at)) != svg.npos; ++at) {
+        const std::size_t cx = svg.rfind("cx=\"", at);
+        centres.push_back(std::stod(svg.substr(cx + 4)));
+    }
+    ASSERT_EQ(centres.size(), 3u);
+    EXPECT_NEAR(centres[1] - centres[0], centres[2] - centres[1], 0.11);
+    EXPECT_EQ(svg.find("<title>below"), svg.npos);
+    EXPECT_NE(svg.find("1 points without a place"), svg.npos);
+}
+
+}  // namespace
+}  // namespace lodestir

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// `lodestir study` as it is used: rows and report, resuming, shards, and numbers that make sense.
+#include "program.h"
+
+#include <map>
+#include <sstream>
+
+namespace lodestir::test {
+namespace {
+
+class StudyRunTest : public ProgramTest {
+protected:
+    StudyRunTest() {
+        const std::string graph = (sourceFolder / "graphs/path_tracer.json").string();
+        write("study.json", {{"format", 1},
+                             {"about", "samples"},
+                             {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
+                             {"size", {32, 18}},
+                             {"seeds", 2},
+                             {"reference", {{"graph", graph}, {"spp", 64}}},
+                             {"techniques", {{"path tracing", {{"graph", graph}, {"vary", {{"trace.spp", {1, 8}}}}}}}},
+                             {"metrics", {"mse", "relmse", "bias"}},
+                             {"charts", {"error_vs_time", "error_vs_rays", "time_by_pass"}}});
+    }
+
+    Output study(const std::string& out, Arguments more = {}) {
+        more.insert(more.begin(), {"study", (folder / "study.json").string(), "--out", (folder / out).string()});
+        return lodestir(more);
+    }
+    std::vector<OrderedJson> rows(const Path& file) {
+        std::vector<OrderedJson> all;
+        std::istringstream lines(readText(folder / file));
+        for (std::string line; std::getline(lines, line);) all.push_back(OrderedJson::parse(line));
+        return all;
+    }
+    /// By what a row is of: what was measured, times aside.
+    std::map<std::string, OrderedJson> measured(const std::vector<OrderedJson>& all) {
+        std::map<std::string, OrderedJson> byRun;
+        for (const OrderedJson& row : all) byRun[row["run"].get<std::string>() + row["frame"].dump()] = row["metrics"];
+        return byRun;
+    }
+};
+
+TEST_F(StudyRunTest, MeasuresResumesAndReports) {
+    const Output first = study("out");
+    ASSERT_EQ(first.exitCode, 0) << first.err;
+    EXPECT_NE(first.out.find("path tracing, spp 8"), std::string::npos) << first.out;
+    const std::vector<OrderedJson> all = rows("out/results.jsonl");
+    ASSERT_EQ(all.size(), 4u) << "two values, two seeds";
+    std::map<int, double> mse, rays;
+    for (const OrderedJson& row : all) {
+        EXPECT_EQ(row["scene"], "cornell");
+        EXPECT_GT(row["ms"], 0);
+        const int spp = row["knobs"]["trace.spp"];
+        EXPECT_EQ(row["passes"]["trace"]["rays"]["primary"], 32 * 18 * spp);
+        EXPECT_NEAR(row["metrics"]["bias"].get<double>(), 0, 0.3);
+        mse[spp] += row["metrics"]["mse"].get<double>() / 2;
+    }
+    EXPECT_GT(mse[8], 0);
+    EXPECT_GT(mse[1], 3 * mse[8]) << "eight times the samples, an eighth of the error";
+    EXPECT_LT(mse[1], 25 * mse[8]);
+    EXPECT_NE(all[0]["metrics"]["mse"], all[2]["metrics"]["mse"]) << "seeds differ";
+
+    const std::string text = readText(folder / "out/results.jsonl"), report = readText(folder / "out/report.html");
+    EXPECT_NE(report.find("</html>"), std::string::npos);
+    EXPECT_NE(report.find("mse against rays"), std::string::npos);
+    EXPECT_EQ(filesOf(folder / "out/references").size(), 2u) << "both halves";
+
+    const Output again = study("out");
+    EXPECT_EQ(again.exitCode, 1);
+    EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
+    ASSERT_EQ(study("out", {"--resume"}).exitCode, 0);
+    EXPECT_EQ(readText(folder / "out/results.jsonl"), text) << "nothing was left to do";
+
+    // As if it had been killed while it wrote its third row.
+    const std::size_t second = text.find('\n', text.find('\n') + 1) + 1;
+    writeFile(folder / "out/results.jsonl", text.substr(0, second + 40));
+    ASSERT_EQ(study("out", {"--resume"}).exitCode, 0);
+    EXPECT_EQ(readText(folder / "out/results.jsonl").substr(0, second), text.substr(0, second)) << "what was measured is kept";
+    const std::vector<OrderedJson> resumed = rows("out/results.jsonl");
+    EXPECT_EQ(resumed.size(), 4u);
+    EXPECT_EQ(measured(resumed), measured(all)) << "a run comes out the same whatever ran before it";
+
+    // Two machines, one folder.
+    std::filesystem::create_directories(folder / "shards");
+    std::filesystem::copy(folder / "out/references", folder / "shards/references");
+    ASSERT_EQ(study("shards", {"--shard", "2/2"}).exitCode, 0);
+    EXPECT_EQ(rows("shards/results.2-of-2.jsonl").size(), 2u);
+    EXPECT_NE(readText(folder / "shards/report.html").find("2 runs are still missing"), std::string::npos);
+    ASSERT_EQ(study("shards", {"--shard", "1/2"}).exitCode, 0);
+    std::vector<OrderedJson> both = rows("shards/results.1-of-2.jsonl");
+    for (const OrderedJson& row : rows("shards/results.2-of-2.jsonl")) both.push_back(row);
+    EXPECT_EQ(measured(both), measured(all));
+    EXPECT_EQ(readText(folder / "shards/report.html").find("still missing"), std::string::npos);
+}
+
+TEST_F(StudyRunTest, WrongStudiesAreRefusedBeforeAnythingRuns) {
+    OrderedJson json = readJson(folder / "study.json");
+    json["techniques"]["path tracing"]["vary"] = {{"trace.spp", {1, 0}}, {"trace.sp", {2}}};
+    json["techniques"]["other"] = {{"graph", json["reference"]["graph"]}, {"variant", "no such"}};
+    write("study.json", json);
+    const Output output = study("out");
+    EXPECT_EQ(output.exitCode, 1);
+    for (const char* part : {"study.json:", "1..4096", "\"spp\"", "no such"})
+        EXPECT_NE(output.err.find(part), std::string::npos) << part << " in\n" << output.err;
+    EXPECT_TRUE(filesOf(folder / "out").empty());
+    EXPECT_EQ(study("out", {"--shard", "3/2"}).exitCode, 2);
+}
+
+}  // namespace
+}  // namespace lodestir::test
