@@ -213,6 +213,7 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
         fixed->bytes += buffer.size();
         return buffer;
     };
+    triangles.emplace_back();  // packets load 64 bytes at a time: the last triangle's load must end in readable memory
     fixed->triangles = upload(triangles, "triangles");
     fixed->roots = upload(roots, "roots");
     fixed->primitives = upload(primitives, "primitives");

@@ -21,32 +21,38 @@ struct Boxes {
     float zCenter, zWidth;
 };
 
-Boxes boxesOf(Spread node) {
-    float xyLow = float(node.even & 0xffffu), xyHigh = float(node.even >> 16);
-    float zLow = float(node.odd & 0xffffu), zHigh = float(node.odd >> 16);
-    return Boxes(xyLow + xyHigh, xyHigh - xyLow, zLow + zHigh, zHigh - zLow);
+// Shifts of the whole 64 bits get at z sooner than taking them apart into dwords, which costs the driver two shuffles.
+Boxes boxesOf(uint64_t node) {
+    int xyLow = int(uint(node) & 0xffffu), xyHigh = int(uint(node) >> 16);
+    int zLow = int((uint(node >> 31) >> 1) & 0xffffu), zHigh = int(node >> 48);
+    return Boxes(float(xyLow + xyHigh), float(xyHigh - xyLow), float(zLow + zHigh), float(zHigh - zLow));
 }
+// In lanes 4-7.
+uint referencesOf(uint64_t node) { return unpackUint2x32(node).y; }
 
 // Comparing the bits of floats is cheaper than comparing floats, where NaN needs care, and right as long as the result counts only when
 // it isn't negative: of two negative ones it may pick either.
 float bitMax(float a, float b) { return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b))); }
 float bitMin(float a, float b) { return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b))); }
 
-const int KEY_MISS = 0x7fffffff;  // above the bits of any distance
+// A key sorts children by distance: the bits of the distance at which the ray enters, of which the last two give way to the child's number.
+const uint KEY_MISS = 0xfffffffcu;  // from here on the child isn't entered
 
-// Bits of the distance at which the lane's ray enters child i, KEY_MISS when it doesn't.
-int childKey(Boxes b, GridRay r, float tMin, float tMax, uint i) {
+uint keyOf(float enter, float leave, uint child) { return ((enter <= leave ? floatBitsToUint(enter) : KEY_MISS) & ~3u) | child; }
+uint childOf(uint key) { return key & 3u; }
+
+// The lane's ray and child i.
+uint childKey(Boxes b, GridRay r, float tMin, float tMax, uint i) {
     float x = subgroupBroadcast(b.xyCenter, i) * r.slope.x + r.offset.x, dx = subgroupBroadcast(b.xyWidth, i) * r.steepness.x;
     float y = subgroupBroadcast(b.xyCenter, i + 4u) * r.slope.y + r.offset.y, dy = subgroupBroadcast(b.xyWidth, i + 4u) * r.steepness.y;
     float z = subgroupBroadcast(b.zCenter, i) * r.slope.z + r.offset.z, dz = subgroupBroadcast(b.zWidth, i) * r.steepness.z;
     float enter = bitMax(bitMax(x - dx, y - dy), bitMax(z - dz, tMin));
     float leave = bitMin(bitMin(x + dx, y + dy), bitMin(z + dz, tMax));
-    return enter <= leave ? floatBitsToInt(enter) : KEY_MISS;
+    return keyOf(enter, leave, i);
 }
 
-// The same for all children at once where only lane `lone` has a ray that matters: key of child i in lanes i and i + 4.
-// Lanes 0-3 test x and z, lanes 4-7 y.
-int childKeysOfOne(Boxes b, GridRay r, float tMin, float tMax, uint lone) {
+// All children at once where only lane `lone` has a ray that matters: key of child i in lanes i and i + 4. Lanes 0-3 test x and z, lanes 4-7 y.
+uint childKeysOfOne(Boxes b, GridRay r, float tMin, float tMax, uint lone) {
     bool isX = packetLane() < 4u;
     float slope = isX ? subgroupShuffle(r.slope.x, lone) : subgroupShuffle(r.slope.y, lone);
     float offset = isX ? subgroupShuffle(r.offset.x, lone) : subgroupShuffle(r.offset.y, lone);
@@ -56,5 +62,6 @@ int childKeysOfOne(Boxes b, GridRay r, float tMin, float tMax, uint lone) {
     float enter = xy - dxy, leave = xy + dxy;
     enter = bitMax(bitMax(enter, subgroupShuffleXor(enter, 4u)), bitMax(z - dz, subgroupShuffle(tMin, lone)));
     leave = bitMin(bitMin(leave, subgroupShuffleXor(leave, 4u)), bitMin(z + dz, subgroupShuffle(tMax, lone)));
-    return subgroupShuffle(enter <= leave ? floatBitsToInt(enter) : KEY_MISS, packetLane() & 3u);
+    uint child = packetLane() & 3u;
+    return subgroupShuffle(keyOf(enter, leave, child), child);
 }

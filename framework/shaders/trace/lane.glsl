@@ -54,8 +54,9 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
                 vec4 a = triangle.at[0], b = triangle.at[1], c = triangle.at[2];
                 vec3 v0 = a.xyz, e1 = vec3(a.w, b.xy), e2 = vec3(b.zw, c.x);
                 Meeting m = meet(origin, direction, tMin, hit.t, v0, e1, e2);
-                if (m.inside && floatBitsToUint(c.y) != 0u) m.inside = alphaAccepts(w, primitive, m.barycentrics);
-                if (m.inside) hit = Hit(m.t, m.barycentrics, primitive, instance);
+                bool accepted = m.t < hit.t;
+                if (accepted && floatBitsToUint(c.y) != 0u) accepted = alphaAccepts(w, primitive, m.barycentrics);
+                if (accepted) hit = Hit(m.t, m.barycentrics, primitive, instance);
             }
             current = anyHit && hit.primitive != NONE ? REF_NONE : stack[--size];
         } else if (current == REF_BACK) {
