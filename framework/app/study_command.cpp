@@ -4,6 +4,8 @@
 #include <framework/app/run_report.h>
 #include <framework/core/log.h>
 #include <framework/image/metrics.h>
+#include <framework/study/ensemble_report.h>
+#include <framework/study/ensemble_study.h>
 #include <framework/study/report.h>
 #include <framework/study/stage.h>
 
@@ -77,6 +79,24 @@ std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun&
     return rows;
 }
 
+/// What is left to say when rows and report are written.
+void noteRest(std::size_t foreign, std::size_t missing, const char* what, const Path& out) {
+    if (foreign > 0)
+        log::note("{} rows in {} belong to other versions of the study or of what it runs, and are left out", foreign, out.string());
+    if (missing > 0) log::note("{} {} are still missing", missing, what);
+    log::note("{}", (out / "report.html").string());
+}
+
+int runEnsembleStudy(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard) {
+    const EnsembleSummary summary = runEnsemble(stage, study, out, file, shard);
+    std::printf("%s", ensembleText(study, summary).c_str());
+    for (const EnsembleCell& cell : summary.cells)
+        if (cell.complete && study.techniques[cell.technique].planted && cell.result.verdict != Verdict::biased)
+            log::warn("{}: the planted fault \"{}\" goes unnoticed", study.scenes[cell.scene].name, labelOf(study, cell));
+    noteRest(summary.foreign, summary.missing, "chunks of runs", out);
+    return summary.failed(study) ? 1 : 0;
+}
+
 int runStudy(const StudyOptions& options) {
     const Study study = loadStudy(options.study);
     const Path out = options.out.empty() ? Path("out") / study.file.stem() : options.out;
@@ -86,6 +106,7 @@ int runStudy(const StudyOptions& options) {
         throw Error({file.string(), 0, 0}, "there are results already", "go on with --resume, or name another folder with --out");
     Stage stage(study, options.stage);
     stage.check();
+    if (study.kind == StudyKind::ensemble) return runEnsembleStudy(stage, study, out, file, shard);
 
     const std::vector<StudyRun> runs = expandRuns(study);
     std::vector<std::string> names;
@@ -110,11 +131,7 @@ int runStudy(const StudyOptions& options) {
     const Summary summary = summarize(study, runs, names, readResults(out));
     writeFile(out / "report.html", reportHtml(study, summary));
     std::printf("%s", summaryText(study, summary).c_str());
-    if (summary.foreign > 0)
-        log::note("{} rows in {} belong to other versions of the study or of what it runs, and are left out", summary.foreign,
-                  out.string());
-    if (summary.missing > 0) log::note("{} runs are still missing", summary.missing);
-    log::note("{}", (out / "report.html").string());
+    noteRest(summary.foreign, summary.missing, "runs", out);
     return 0;
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 namespace lodestir {
 namespace {
@@ -34,6 +35,7 @@ public:
             bindEdges(i);
         }
         bindWorlds();
+        bindSingleHandles();
         for (std::size_t i = 0; i < nodes().size(); ++i) checkInputs(i);
         bypassOffNodes();
         bindShow();
@@ -244,6 +246,20 @@ private:
         return std::nullopt;
     }
 
+    /// Any other unwired struct takes the graph's only output of its type; where there are several, the file has to say which.
+    void bindSingleHandles() {
+        for (std::size_t i = 0; i < nodes().size(); ++i) {
+            if (!nodes()[i].pass) continue;
+            for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
+                const Port& port = *nodes()[i].pass->ports[p];
+                const bool free = port.isInput() && !port.optional && std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
+                if (!free || port.type.kind != PortType::Kind::handle || isWorld(port)) continue;
+                const std::vector<Source> sources = sourcesFor(i, port);
+                if (sources.size() == 1) nodes()[i].inputs[p] = sources.front();
+            }
+        }
+    }
+
     void checkInputs(std::size_t i) {
         const GraphNode& node = nodes()[i];
         if (!node.pass || node.off) return;
@@ -251,25 +267,32 @@ private:
             const Port& port = *node.pass->ports[p];
             if (!port.isInput() || port.optional || node.inputs[p]) continue;
             if (std::ranges::find(wired_, Source{int(i), int(p)}) != wired_.end()) continue;  // wired, but wrongly
-            const std::string candidates = sourcesFor(i, port);
+            const std::string candidates = textOf(sourcesFor(i, port));
             problems_.add(node.where,
                           fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, port.name, port.type.text(), port.doc),
                           candidates.empty() ? "no pass of the graph makes one" : "made by: " + candidates);
         }
     }
 
-    /// The outputs that would fit, as a hint.
-    std::string sourcesFor(std::size_t consumer, const Port& wanted) {
-        constexpr std::size_t listed = 5;
-        std::vector<std::string> names;
-        for (std::size_t i = 0; i < nodes().size(); ++i) {
-            if (!nodes()[i].pass || dependsOn(int(i), int(consumer))) continue;
-            for (const Port* port : nodes()[i].pass->ports) {
-                if (isMade(*port) && port->type.kind == wanted.type.kind && port->type.name == wanted.type.name)
-                    names.push_back(fmt::format("{}.{}", nodes()[i].name, port->name));
+    /// The outputs that would fit.
+    std::vector<Source> sourcesFor(std::size_t consumer, const Port& wanted) const {
+        std::vector<Source> sources;
+        for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
+            if (!graph_.nodes[i].pass || dependsOn(int(i), int(consumer))) continue;
+            const auto& ports = graph_.nodes[i].pass->ports;
+            for (std::size_t p = 0; p < ports.size(); ++p) {
+                if (isMade(*ports[p]) && ports[p]->type.kind == wanted.type.kind && ports[p]->type.name == wanted.type.name)
+                    sources.push_back({int(i), int(p), false});
             }
         }
-        if (names.size() > listed) names.resize(listed);
+        return sources;
+    }
+
+    std::string textOf(const std::vector<Source>& sources) const {
+        constexpr std::size_t listed = 5;
+        std::vector<std::string> names;
+        for (const Source& source : sources | std::views::take(listed))
+            names.push_back(fmt::format("{}.{}", graph_.nodes[std::size_t(source.node)].name, graph_.port(source).name));
         return fmt::format("{}", fmt::join(names, ", "));
     }
 

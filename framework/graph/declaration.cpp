@@ -42,7 +42,7 @@ const std::set<std::string_view>& glslWords() {
 const std::set<std::string_view>& ownWords() {
     static const std::set<std::string_view> words{
         "main", "push",       "params",    "frame",   "passBlock",    "pixel",      "inside",    "pixelIndex", "argument",   "warming",
-        "skip", "frameIndex", "frameSize", "runSeed", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba"};
+        "skip", "frameIndex", "frameSize", "runSeed", "passSalt", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba"};
     return words;
 }
 
@@ -57,7 +57,9 @@ public:
         : pass_(pass), type_(type), where_(where), problems_(problems) {}
 
     void run() {
-        for (const Port* port : pass_.ports) checkName("port", port->name);
+        for (const Port* port : pass_.ports) {
+            if (!sharesName(*port)) checkName("port", port->name);
+        }
         for (const Parameter* parameter : pass_.parameters) checkName("parameter", parameter->name);
         for (const Port* port : pass_.ports) checkGenerated(*port);
         for (const Port* port : pass_.ports) checkShape(*port);
@@ -67,6 +69,13 @@ public:
 
 private:
     void add(std::string what, std::string hint = {}) { problems_.add(where_, "pass type \"" + type_ + "\": " + what, std::move(hint)); }
+
+    /// An output may have the name of an input of its type, declared before it: what comes in goes out changed.
+    bool sharesName(const Port& port) const {
+        const Port* first = find(port.name);
+        return first != &port && first->isInput() && !port.isInput() && first->type.kind == port.type.kind && first->type.name == port.type.name &&
+               std::ranges::count(pass_.ports, port.name, &Port::name) == 2;
+    }
 
     void checkName(const char* kind, std::string_view name) {
         const std::string start = fmt::format("{} \"{}\" ", kind, name);
@@ -139,7 +148,7 @@ private:
     }
 
     void checkBypass(const Pass::Bypass& bypass) {
-        const bool known = find(bypass.in->name) == bypass.in && find(bypass.out->name) == bypass.out;
+        const bool known = std::ranges::count(pass_.ports, bypass.in) + std::ranges::count(pass_.ports, bypass.out) == 2;
         if (!known || !bypass.in->isInput() || bypass.out->role != Port::Role::out) {
             add("a bypass must lead from an input to an output of the pass");
         } else if (bypass.in->type.kind != bypass.out->type.kind || bypass.in->type.name != bypass.out->type.name) {

@@ -94,6 +94,12 @@ private:
         }
     }
 
+    /// How the shader reads the port. An output that has the name of an input is read as madeName: the plain name is the input.
+    std::string readName(const Port& port) const {
+        const bool shared = !port.isInput() && std::ranges::count(pass_.ports, port.name, &Port::name) == 2;
+        return shared ? "made" + capitalised(port.name) : std::string(port.name);
+    }
+
     void writeBlock() {
         const bool hasUniforms = std::ranges::any_of(pass_.parameters, [](const Parameter* p) { return !p->constant && !isText(*p); });
         if (hasUniforms) {
@@ -106,7 +112,7 @@ private:
         }
         line("\nlayout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer PassBlock {{");
         line("    FrameInfo frame;");
-        for (const Port* port : pass_.ports) line("    PortRecord {};", port->name);
+        for (const Port* port : pass_.ports) line("    PortRecord {};", readName(*port));
         if (hasUniforms) line("    Params params;");
         line("}};");
         line("layout(push_constant, scalar) uniform PushConstants {{ Push push; }};");
@@ -149,16 +155,17 @@ private:
     void writeImage(std::size_t i, const Port& port, Format format) {
         const FormatFacts& facts = factsOf(format);
         const std::string stored = capitalised(facts.name);
-        line("ivec2 {}Size() {{ return ivec2(passBlock().{}.size); }}", port.name, port.name);
-        line("{} {}(ivec2 p) {{", facts.glsl, port.name);
-        line("    const PortRecord port = passBlock().{};", port.name);
+        const std::string name = readName(port);
+        line("ivec2 {}Size() {{ return ivec2(passBlock().{}.size); }}", name, name);
+        line("{} {}(ivec2 p) {{", facts.glsl, name);
+        line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, p, port.size)) return {}(0);", i, facts.glsl);
         line("    return decode{}({}{}(port.address).at[texelIndex(p, port.size)]);", stored, port.isInput() ? "In" : "Out", stored);
         line("}}");
         if (port.isInput()) line("vec4 {}Rgba(ivec2 p) {{ return asRgba({}(p)); }}", port.name, port.name);
         if (!isWritable(port)) return;
         line("void store{}(ivec2 p, {} value) {{", capitalised(port.name), facts.glsl);
-        line("    const PortRecord port = passBlock().{};", port.name);
+        line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, p, port.size)) return;", i);
         line("    Out{}(port.address).at[texelIndex(p, port.size)] = encode{}(value);", stored, stored);
         line("}}");
@@ -172,16 +179,17 @@ private:
 
     void writeBuffer(std::size_t i, const Port& port) {
         const std::string memory = capitalised(port.type.name);
-        line("uint {}Count() {{ return passBlock().{}.size.x; }}", port.name, port.name);
-        line("{} {}(uint i) {{", port.type.name, port.name);
-        line("    const PortRecord port = passBlock().{};", port.name);
+        const std::string name = readName(port);
+        line("uint {}Count() {{ return passBlock().{}.size.x; }}", name, name);
+        line("{} {}(uint i) {{", port.type.name, name);
+        line("    const PortRecord port = passBlock().{};", name);
         line("    {} nothing = {{}};", port.type.name);
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return nothing;", i);
         line("    return {}{}(port.address).at[i];", port.isInput() ? "In" : "Out", memory);
         line("}}");
         if (!isWritable(port)) return;
         line("void store{}(uint i, {} value) {{", capitalised(port.name), port.type.name);
-        line("    const PortRecord port = passBlock().{};", port.name);
+        line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return;", i);
         line("    Out{}(port.address).at[i] = value;", memory);
         line("}}");
@@ -194,8 +202,8 @@ private:
 
     void writeHandle(const Port& port, bool bound) {
         if (bound) {
-            line("{} {}() {{ return {}Memory(passBlock().{}.address).value; }}", port.type.name, port.name, capitalised(port.type.name),
-                 port.name);
+            line("{} {}() {{ return {}Memory(passBlock().{}.address).value; }}", port.type.name, readName(port), capitalised(port.type.name),
+                 readName(port));
         } else {
             line("{} {}() {{ {} nothing = {{}}; return nothing; }}", port.type.name, port.name, port.type.name);
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/graph/runner.h>
 
+#include <framework/core/files.h>
 #include <framework/core/log.h>
 #include <framework/core/tasks.h>
 #include <framework/graph/header.h>
@@ -202,6 +203,8 @@ void Runner::State::fillBlock(std::size_t node) {
                          .size = size_,
                          .historyValid = historyValid_,
                          .validate = options_.checkBounds,
+                         .salt = std::uint32_t(Hash().add(graph_.nodes[node].name).a >> 33),
+                         .pad = 0,
                          .ledger = ledger_.address() + node * sizeof(RayCounts),
                          .faults = faults_.address() + node * sizeof(FaultRecord)};
     std::memcpy(block.data(), &info, sizeof info);

@@ -58,7 +58,8 @@ Source findSource(const Graph& graph, const std::string& name, const Where& wher
     if (source.port < 0) {
         const std::string portName = name.substr(dot + 1);
         const auto any = [](const Port&) { return true; };
-        source.port = findPort(*node.pass, portName, any);
+        source.port = findPort(*node.pass, portName, isMade);
+        if (source.port < 0) source.port = findPort(*node.pass, portName, any);
         if (source.port < 0)
             throw Error(where, fmt::format("pass \"{}\" has no port \"{}\"", nodeName, portName),
                         didYouMean(portName, portNames(*node.pass, any)));

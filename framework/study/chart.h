@@ -39,6 +39,18 @@ struct Bar {
 /// Stacked horizontal bars from 0; parts of one name have one colour.
 std::string drawBars(const std::string& title, const std::string& xLabel, const std::vector<Bar>& bars);
 
+struct Interval {
+    std::string name, about;
+    double value = 0, halfWidth = 0;
+    bool good = true;  ///< else it is drawn in the colour of a warning
+};
+
+/// Horizontal intervals, one below the other, with a line at 0 and a band from -band to +band.
+std::string drawIntervals(const std::string& title, const std::string& xLabel, const std::vector<Interval>& intervals, double band);
+
+/// A grid of squares, row by row from the top, coloured from blue (-top) over white (0) to red (+top), each with its value when the pointer rests on it.
+std::string drawGrid(const std::string& title, int columns, const std::vector<double>& values, double top);
+
 /// Text with the characters escaped that mean something in HTML and SVG.
 std::string escapeHtml(const std::string& text);
 

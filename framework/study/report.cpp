@@ -2,6 +2,7 @@
 #include <framework/image/metrics.h>
 #include <framework/study/chart.h>
 #include <framework/study/halves.h>
+#include <framework/study/page.h>
 #include <framework/study/report.h>
 
 #include <fmt/format.h>
@@ -14,16 +15,6 @@ namespace lodestir {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-constexpr const char* style = R"(
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; max-width: 1280px; margin: 2em auto; padding: 0 1.5em }
-h1 { font-size: 1.6em; margin-bottom: 0 } h2 { margin-top: 2em; border-bottom: 1px solid #ccc } .note { color: #555; max-width: 60em }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1em 0 }
-th, td { padding: 2px 12px; text-align: right; border-bottom: 1px solid #e6e6e6; white-space: nowrap } th { font-weight: 600; border-bottom-color: #888 }
-th:first-child, td:first-child { text-align: left } .pm { color: #777 } .charts { display: flex; flex-wrap: wrap; gap: 1.5em }
-svg { max-width: 100%; height: auto; font-family: system-ui, sans-serif } svg .title { font-size: 14px; font-weight: 600 }
-svg .tick { font-size: 12px; fill: #444 } svg .label { font-size: 13px; fill: #222 } svg .grid { stroke: #e4e4e4 } svg .frame { stroke: #444; fill: none }
-)";
 
 std::string list(const std::vector<std::string>& parts) {
     std::string text;
@@ -54,14 +45,9 @@ public:
     }
 
     std::string page() const {
-        std::string html =
-            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n";
-        const std::string title = study_.file.stem().string();
-        html += fmt::format("<title>{}</title><style>{}</style></head><body>\n<h1>{}</h1>\n<p>{}</p>\n", escapeHtml(title), style,
-                            escapeHtml(title), escapeHtml(study_.about));
-        html += conditions();
+        std::string html = conditions();
         for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene) html += sceneSection(scene);
-        return html + "</body></html>\n";
+        return pageHtml(study_.file.stem().string(), study_.about, html);
     }
 
 private:

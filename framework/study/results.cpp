@@ -21,12 +21,12 @@ using OrderedJson = nlohmann::ordered_json;
 /// JSON has no NaN: it is written as null.
 double numberOf(const OrderedJson& json) { return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
 
-void readFile(const Path& path, std::vector<ResultRow>& rows) {
+void readFile(const Path& path, const std::function<void(const OrderedJson&)>& take) {
     const std::string text = readText(path);
     int line = 1;
     for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != text.npos; begin = end + 1, ++line) {
         try {
-            rows.push_back(rowOf(OrderedJson::parse(text.begin() + std::ptrdiff_t(begin), text.begin() + std::ptrdiff_t(end))));
+            take(OrderedJson::parse(text.begin() + std::ptrdiff_t(begin), text.begin() + std::ptrdiff_t(end)));
         } catch (const OrderedJson::exception&) {
             throw Error(Where{path.string(), line}, "is no row of results", "remove the line; its run will be made again");
         }
@@ -67,7 +67,7 @@ ResultRow rowOf(const OrderedJson& json) {
     return row;
 }
 
-std::vector<ResultRow> readResults(const Path& folder) {
+void readLines(const Path& folder, const std::function<void(const OrderedJson&)>& take) {
     std::vector<Path> files;
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
@@ -75,8 +75,12 @@ std::vector<ResultRow> readResults(const Path& folder) {
         if (name.starts_with("results") && name.ends_with(".jsonl")) files.push_back(entry.path());
     }
     std::ranges::sort(files);
+    for (const Path& file : files) readFile(file, take);
+}
+
+std::vector<ResultRow> readResults(const Path& folder) {
     std::vector<ResultRow> all, rows;
-    for (const Path& file : files) readFile(file, all);
+    readLines(folder, [&](const OrderedJson& line) { all.push_back(rowOf(line)); });
     std::map<std::pair<std::string, int>, std::size_t> places;
     for (ResultRow& row : all) {
         const auto [place, isNew] = places.emplace(std::pair(row.run, row.offset), rows.size());
@@ -103,8 +107,14 @@ ResultFile::ResultFile(const Path& path) : path_(path), handle_(-1) {
 ResultFile::~ResultFile() { ::close(handle_); }
 
 void ResultFile::add(const std::vector<ResultRow>& rows) {
+    std::vector<OrderedJson> lines;
+    for (const ResultRow& row : rows) lines.push_back(toJson(row));
+    addLines(lines);
+}
+
+void ResultFile::addLines(const std::vector<OrderedJson>& lines) {
     std::string text;
-    for (const ResultRow& row : rows) text += toJson(row).dump() + "\n";
+    for (const OrderedJson& line : lines) text += line.dump() + "\n";
     for (std::size_t written = 0; written < text.size();) {
         const ssize_t count = ::write(handle_, text.data() + written, text.size() - written);
         if (count < 0 && errno != EINTR) fail(path_, errno);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -39,6 +40,9 @@ nlohmann::ordered_json toJson(const ResultRow& row);
 /// nlohmann's exceptions where a member is missing or of another kind.
 ResultRow rowOf(const nlohmann::ordered_json& json);
 
+/// Hands on the value of each whole line of all results*.jsonl files of a folder, files by name. Error with file and line where `take` throws one of
+/// nlohmann's exceptions.
+void readLines(const Path& folder, const std::function<void(const nlohmann::ordered_json& line)>& take);
 /// The rows of all results*.jsonl files of a folder: each shard writes its own. A last line that was cut is passed over; of two rows of the
 /// same run and frame the later one counts. Error with file and line where a whole line is none of ours.
 std::vector<ResultRow> readResults(const Path& folder);
@@ -53,6 +57,7 @@ public:
 
     /// Adds lines with one write, on the disk when it returns. Error when the file cannot be written.
     void add(const std::vector<ResultRow>& rows);
+    void addLines(const std::vector<nlohmann::ordered_json>& lines);
 
 private:
     Path path_;

@@ -6,9 +6,6 @@
 #include <charconv>
 
 namespace lodestir {
-namespace {
-
-/// Every combination of a technique's knob values, the last knob fastest.
 std::vector<std::vector<StudySetting>> combinations(const Technique& technique) {
     std::vector<std::vector<StudySetting>> all{{}};
     for (const Knob& knob : technique.vary) {
@@ -22,8 +19,6 @@ std::vector<std::vector<StudySetting>> combinations(const Technique& technique) 
     }
     return all;
 }
-
-}  // namespace
 
 std::vector<StudyRun> expandRuns(const Study& study) {
     std::vector<StudyRun> runs;

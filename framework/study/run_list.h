@@ -17,6 +17,9 @@ struct StudyRun {
     std::uint32_t seed = 0;
 };
 
+/// Every combination of a technique's knob values, the last knob fastest.
+std::vector<std::vector<StudySetting>> combinations(const Technique& technique);
+
 /// Scene by scene, so that each is loaded once; within a scene seed by seed, so that a machine that grows slow or busy slows all techniques alike.
 std::vector<StudyRun> expandRuns(const Study& study);
 

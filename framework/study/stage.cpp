@@ -12,10 +12,7 @@
 namespace lodestir {
 namespace {
 
-/// Samples of one frame of a reference: frames of a second or so, because long ones are taken for a hang on GPUs that also draw the screen.
-constexpr std::uint64_t samplesPerFrame = 1 << 23;
-/// Studies have seeds below 2^31.
-constexpr std::uint32_t firstReferenceSeed = 1u << 31, seedsPerHalf = 1u << 30;
+constexpr std::uint32_t seedsPerHalf = 1u << 30;
 
 ImageData colorOf(const ImageData& image, const std::string& name) {
     if (image.channels < 3) throw Error("the measured port " + name + " has no colour", "name one with \"port\"");
@@ -152,18 +149,33 @@ std::string Stage::nameOf(const StudyRun& run) {
     return hash.hex();
 }
 
-std::vector<StagedFrame> Stage::render(const StudyRun& run) {
+StagedGraph Stage::buildReference(std::size_t scene, int samples) {
+    StagedGraph staged = build(study_.reference, {}, scene, 0);
+    setParameter(staged.graph, samplesParameter(staged.graph, study_.reference.where), Json(samples));
+    return staged;
+}
+
+std::unique_ptr<Runner> Stage::makeRunner(StagedGraph& staged, std::size_t index) {
     open();
+    return std::make_unique<Runner>(*device_, staged.graph, scene(index), RunnerOptions{.rays = rays_, .pinned = {staged.port}});
+}
+
+ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) const {
+    ImageData image = colorOf(runner.readImage(staged.port), staged.graph.nameOf(staged.port));
+    if (!device_->validationMessages().empty()) throw Error("validation: " + device_->validationMessages().front());
+    return image;
+}
+
+std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     StagedGraph staged = build(study_.techniques[run.technique].graph, run.knobs, run.scene, run.seed);
-    Runner runner(*device_, staged.graph, scene(run.scene), {.rays = rays_, .pinned = {staged.port}});
-    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
+    const std::unique_ptr<Runner> runner = makeRunner(staged, run.scene);
+    runner->setFrame(std::uint32_t(study_.event - study_.warmup));
     std::vector<StagedFrame> frames;
     for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
-        FrameReport report = runner.run();
+        FrameReport report = runner->run();
         if (std::ranges::find(study_.measure, offset) == study_.measure.end()) continue;
-        frames.push_back({std::move(report), colorOf(runner.readImage(staged.port), staged.graph.nameOf(staged.port))});
+        frames.push_back({std::move(report), imageOf(*runner, staged)});
     }
-    if (!device_->validationMessages().empty()) throw Error("validation: " + device_->validationMessages().front());
     return frames;
 }
 
@@ -180,7 +192,7 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder) 
     const auto half = [&](std::uint32_t index) {
         const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
         if (std::filesystem::is_regular_file(file)) return readExr(file);
-        ImageData image = renderHalf(staged, samplesName, scene(sceneIndex), frame, index);
+        ImageData image = renderHalf(staged, samplesName, sceneIndex, frame, index);
         writeExr(file, image, {.attributes = {{"lodestir", staged.graph.resolved().dump(-1)}}});
         return image;
     };
@@ -189,8 +201,7 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder) 
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
-ImageData Stage::renderHalf(StagedGraph& staged, const std::string& samplesName, const Scene& scene, int frame, std::uint32_t half) {
-    open();
+ImageData Stage::renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half) {
     const int total = study_.referenceSamples / 2;
     const auto pixels = std::uint64_t(study_.size.x) * study_.size.y;
     const int most = int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024));
@@ -198,16 +209,16 @@ ImageData Stage::renderHalf(StagedGraph& staged, const std::string& samplesName,
     std::uint32_t seed = firstReferenceSeed + half * seedsPerHalf;
     setParameter(staged.graph, samplesName, Json(std::min(most, total)));
     staged.graph.description.seed = seed;
-    Runner runner(*device_, staged.graph, scene, {.rays = rays_, .pinned = {staged.port}});
+    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
     log::Progress progress(fmt::format("reference of frame {}, half {}", frame, half == 0 ? "A" : "B"), std::size_t(total));
     for (int done = 0; done < total; ++seed) {
         const int samples = std::min(most, total - done);
         setParameter(staged.graph, samplesName, Json(samples));
         staged.graph.description.seed = seed;
-        runner.reset();
-        runner.setFrame(std::uint32_t(frame));
-        runner.run();
-        const ImageData image = colorOf(runner.readImage(staged.port), staged.graph.nameOf(staged.port));
+        runner->reset();
+        runner->setFrame(std::uint32_t(frame));
+        runner->run();
+        const ImageData image = imageOf(*runner, staged);
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]) * samples / total;
         done += samples;
         progress.advance(std::size_t(samples));

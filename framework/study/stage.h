@@ -6,11 +6,17 @@
 #include <framework/study/halves.h>
 #include <framework/study/run_list.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lodestir {
+
+/// Studies have seeds below this one, so that no technique ever shares its noise with a reference.
+inline constexpr std::uint32_t firstReferenceSeed = 1u << 31;
+/// Most samples of one frame of a reference: frames of a second or so, because long ones are taken for a hang on GPUs that also draw the screen.
+inline constexpr std::uint64_t samplesPerFrame = 1 << 23;
 
 struct StageOptions {
     std::vector<Path> passes;  ///< extra folders of pass libraries
@@ -45,13 +51,20 @@ public:
     /// Hash of all that the frames of a run depend on but the device.
     std::string nameOf(const StudyRun& run);
 
+    /// The reference's graph, taking so many samples a pixel and frame.
+    StagedGraph buildReference(std::size_t scene, int samples);
+    /// A runner of a graph that was built for the scene; graph and stage must outlive it, and no other scene may be asked for meanwhile.
+    std::unique_ptr<Runner> makeRunner(StagedGraph& staged, std::size_t scene);
+    /// The measured port after the runner's last frame: three channels. Error when validation had something to say.
+    ImageData imageOf(const Runner& runner, const StagedGraph& staged) const;
+
     /// The measured frames of a run.
     std::vector<StagedFrame> render(const StudyRun& run);
     /// The reference of a measured frame (an offset from the event), from `folder` where it holds one for the same content.
     Halves reference(std::size_t scene, int offset, const Path& folder);
 
 private:
-    ImageData renderHalf(StagedGraph& staged, const std::string& samplesName, const Scene& scene, int frame, std::uint32_t half);
+    ImageData renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half);
     void open();
 
     const Study& study_;

@@ -15,6 +15,7 @@ const std::vector<std::string> chartNames{"error_vs_time", "error_vs_rays", "err
 
 /// Seeds above are kept for references, so that none is ever compared with itself.
 constexpr int maxSeed = std::numeric_limits<int>::max();
+constexpr int leastRuns = 16;  // an ensemble's: fewer tell nothing of their own skewness
 constexpr int maxFrame = 1'000'000'000, maxSeedCount = 100'000, maxReferenceSamples = 1 << 24;
 
 class StudyReader {
@@ -27,19 +28,23 @@ public:
         int format = 1;
         if (fields.require("format")) fields.integer("format", format, 1, 1);
         fields.text("about", study_.about);
+        std::size_t kind = 0;
+        fields.choice("kind", kind, {"error", "ensemble"});
+        study_.kind = StudyKind(kind);
         readScenes(fields.require("scenes"));
         attempt([&] { readSize(fields.find("size")); });
-        attempt([&] { readSeeds(fields.require("seeds")); });
         study_.measure = {0};
         if (const Json* frames = fields.find("frames")) readFrames(*frames);
         if (const Json* reference = fields.require("reference")) readReference(*reference);
         readTechniques(fields.require("techniques"));
-        study_.metrics = readNames(fields.find("metrics"), "metric", metricNames(), {"relmse", "mse"});
-        study_.charts = readNames(fields.find("charts"), "chart", chartNames, chartNames);
-        refuse(fields.find("mask"), "errors inside a mask are not measured", "leave \"mask\" out to measure whole frames");
-        std::size_t kind = 0;
-        fields.choice("kind", kind, {"error", "ensemble"});
-        if (kind == 1) refuse(fields.find("kind"), "ensemble studies are not run", "leave \"kind\" out to measure errors");
+        if (study_.kind == StudyKind::ensemble) {
+            readRuns(fields);
+        } else {
+            attempt([&] { readSeeds(fields.require("seeds")); });
+            study_.metrics = readNames(fields.find("metrics"), "metric", metricNames(), {"relmse", "mse"});
+            study_.charts = readNames(fields.find("charts"), "chart", chartNames, chartNames);
+            refuse(fields.find("mask"), "errors inside a mask are not measured", "leave \"mask\" out to measure whole frames");
+        }
         fields.finish();
         problems_.raise();
         return std::move(study_);
@@ -56,6 +61,7 @@ private:
     void refuse(const Json* value, const char* what, const char* hint) {
         if (value) problems_.add(value->where(), what, hint);
     }
+    static bool readFlag(const Json* value, const char* what) { return value && value->asBool(what); }
     static std::int64_t within(const Json& value, const std::string& what, std::int64_t low, std::int64_t high) {
         const std::int64_t number = value.asInt(what);
         if (number < low || number > high) throw Error(value.where(), fmt::format("{} must be {}..{}, not {}", what, low, high, number));
@@ -104,6 +110,25 @@ private:
         }
         const std::int64_t count = within(*seeds, "the number of seeds", 1, maxSeedCount);
         for (std::uint32_t seed = 1; seed <= count; ++seed) study_.seeds.push_back(seed);
+    }
+
+    /// Of an ensemble: how many runs, from which seed on, and how sure it has to be.
+    void readRuns(Fields& fields) {
+        attempt([&] {
+            const Json* runs = fields.require("runs");
+            int seed = 1;
+            fields.integer("seed", seed, 0, maxSeed - maxSeedCount);
+            const std::int64_t count = runs ? within(*runs, "the number of runs", leastRuns, maxSeedCount) : 0;
+            for (std::int64_t i = 0; i < count; ++i) study_.seeds.push_back(std::uint32_t(seed + i));
+        });
+        attempt([&] {
+            const Json* width = fields.find("halfWidth");
+            if (!width) return;
+            study_.halfWidth = width->asNumber("\"halfWidth\"");
+            if (!(study_.halfWidth > 0 && study_.halfWidth <= 0.1))
+                throw Error(width->where(), fmt::format("\"halfWidth\" must be above 0 and at most 0.1, not {:g}", study_.halfWidth),
+                            "it is a share of the energy: 0.003 is 0.3 %");
+        });
     }
 
     void readFrames(const Json& value) {
@@ -159,6 +184,9 @@ private:
         if (const Json* samples = fields.require("spp"))
             attempt([&] {
                 study_.referenceSamples = int(within(*samples, "the reference's \"spp\"", 2, maxReferenceSamples));
+                if (study_.kind == StudyKind::ensemble && study_.referenceSamples % referenceBatches != 0)
+                    throw Error(samples->where(), fmt::format("the reference's \"spp\" must be a multiple of {}", referenceBatches),
+                                "an ensemble's is rendered in as many batches, which tell its noise");
                 if (study_.referenceSamples % 2 != 0)
                     throw Error(samples->where(), "the reference's \"spp\" must be even", "it is rendered in two halves");
             });
@@ -174,6 +202,13 @@ private:
                 Technique technique{.name = name};
                 readGraph(fields, technique.graph);
                 if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
+                if (study_.kind == StudyKind::ensemble) {
+                    attempt([&] { technique.control = readFlag(fields.find("control"), "\"control\""); });
+                    attempt([&] { technique.planted = readFlag(fields.find("planted"), "\"planted\""); });
+                    if (technique.control && technique.planted)
+                        problems_.add(value.where(), fmt::format("technique \"{}\" can't be both right and wrong", name),
+                                      "\"control\" is known to be unbiased, \"planted\" to be biased");
+                }
                 fields.finish();
                 study_.techniques.push_back(std::move(technique));
             }

@@ -38,6 +38,8 @@ struct Technique {
     std::string name;
     StudyGraph graph;
     std::vector<Knob> vary;  ///< every combination is run; charts draw a curve along the last one
+    bool control = false;    ///< of an ensemble: known to be unbiased, so that blaming it blames the study
+    bool planted = false;    ///< of an ensemble: known to be biased, to see it caught
 };
 
 struct StudyScene {
@@ -46,20 +48,28 @@ struct StudyScene {
     Where where;
 };
 
+/// What a study asks: how large errors are, or whether the mean of many runs is right.
+enum class StudyKind { error, ensemble };
+
 struct Study {
     Path file;
+    StudyKind kind = StudyKind::error;
     std::string about;
     std::vector<StudyScene> scenes;
     glm::uvec2 size{480, 270};  ///< pixels
-    std::vector<std::uint32_t> seeds;
+    std::vector<std::uint32_t> seeds;  ///< of an ensemble: one a run, in a row
     int warmup = 0;            ///< frames rendered before the event
     int event = 0;             ///< frame of the scene; where the file names none, `warmup`
     std::vector<int> measure;  ///< frames after the event (negative: before), rising
     StudyGraph reference;
     int referenceSamples = 0;  ///< a pixel, both halves together
     std::vector<Technique> techniques;
-    std::vector<std::string> metrics, charts;
+    std::vector<std::string> metrics, charts;  ///< none in an ensemble
+    double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
 };
+
+/// An ensemble's reference is rendered in a multiple of so many batches, each a run of its own.
+inline constexpr int referenceBatches = 64;
 
 /// Reads a study file; paths start from its folder. Throws Error with everything that is wrong with its form.
 Study loadStudy(const Path& file);

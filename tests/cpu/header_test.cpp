@@ -130,7 +130,7 @@ TEST(Header, TheBlockLiesWhereTheShaderLooks) {
     const BlockLayout layout = blockLayout(pass);
     const auto offsets = structOffsets(compile(pass, bindings(pass, true, Format::rgba32f), shader));
     EXPECT_TRUE(contains(offsets, {offsetof(FrameInfo, index), offsetof(FrameInfo, seed), offsetof(FrameInfo, size), offsetof(FrameInfo, historyValid),
-                                   offsetof(FrameInfo, validate), offsetof(FrameInfo, ledger), offsetof(FrameInfo, faults)}));
+                                   offsetof(FrameInfo, validate), offsetof(FrameInfo, salt), offsetof(FrameInfo, ledger), offsetof(FrameInfo, faults)}));
     EXPECT_TRUE(contains(offsets, {offsetof(PortRecord, address), offsetof(PortRecord, size)}));
     EXPECT_TRUE(contains(offsets, {offsetof(Push, block), offsetof(Push, tileCounter), offsetof(Push, base), offsetof(Push, extent), offsetof(Push, arguments),
                                    offsetof(Push, warm), offsetof(Push, pad)}));

@@ -12,6 +12,8 @@ struct FrameInfo {
     uvec2 size;         // pixels
     uint historyValid;  // 0 at start and after resize, cut and reset
     uint validate;      // 1: shaders may check what costs time
+    uint salt;          // tells the nodes of a graph apart: of the node's name, below 2^31
+    uint pad;
     uint64_t ledger;    // uint64_t[RAYS_PURPOSES], counts of this pass in this frame
     uint64_t faults;    // FaultRecord of this pass
 };

@@ -29,6 +29,8 @@ bool skip() { return warming() || !inside(pixel()); }
 uint frameIndex() { return passBlock().frame.index; }
 uvec2 frameSize() { return passBlock().frame.size; }
 uint runSeed() { return passBlock().frame.seed; }
+// Differs from node to node, so that two nodes of one type don't draw the same resampling numbers: a stage for resamplingSeed.
+uint passSalt() { return passBlock().frame.salt; }
 // False in the first frame and after resize, cut and reset: @prev and State hold zeros.
 bool historyValid() { return passBlock().frame.historyValid != 0u; }
 bool validating() { return passBlock().frame.validate != 0u; }

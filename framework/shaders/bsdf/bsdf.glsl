@@ -196,32 +196,45 @@ vec3 lobeDirection(Bsdf b, uint lobe, vec3 wo, vec2 u, out vec3 deltaValue) {
     return inner <= 0.0 ? vec3(0.0) : (cosH / b.eta - sqrt(inner)) * h - wo / b.eta;
 }
 
-/// Samples a direction that light may come from: u.x chooses the lobe, u.yz the direction.
-BsdfSample bsdfSample(Bsdf b, vec3 wo, vec3 u) {
-    BsdfSample result = BsdfSample(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, LOBE_COUNT, false);
+/// A direction that light may come from, not yet weighed: whoever stores it with fewer bits weighs what is stored.
+struct BsdfDirection {
+    vec3 wi;          // unit; zero: none
+    uint lobe;
+    bool delta;
+    float chance;     // of the lobe
+    vec3 deltaValue;  // of a delta lobe: f |cos|
+};
+
+/// u.x chooses the lobe, u.yz the direction.
+BsdfDirection bsdfDirection(Bsdf b, vec3 wo, vec3 u) {
+    BsdfDirection result = BsdfDirection(vec3(0.0), LOBE_COUNT, false, 0.0, vec3(0.0));
     vec4 chance = lobeProbabilities(b, wo);
     uint lobe = chooseLobe(chance, u.x);
     if (lobe == LOBE_COUNT || !(dot(b.normal, wo) > 0.0)) return result;
-    vec3 deltaValue;
-    vec3 wi = lobeDirection(b, lobe, wo, u.yz, deltaValue);
-    wi = safeNormalize(wi, vec3(0.0));
-    result.wi = wi;
+    result.wi = safeNormalize(lobeDirection(b, lobe, wo, u.yz, result.deltaValue), vec3(0.0));
     result.lobe = lobe;
     result.delta = lobeDelta(b, lobe);
-    if (result.delta) {
-        float side = dot(b.geometric, wi);
-        if (lobe == LOBE_REFLECTION ? side > 0.0 : side < 0.0) {
-            result.pdf = result.lobePdf = chance[lobe];
-            result.weight = result.lobeWeight = deltaValue / chance[lobe];
-        }
-        return result;
-    }
-    BsdfValue value = bsdfValue(b, lobe, wo, wi);
-    if (value.onePdf > 0.0) {
-        result.pdf = value.pdf;
-        result.lobePdf = value.onePdf;
-        result.weight = value.all / value.pdf;
-        result.lobeWeight = value.one / value.onePdf;
-    }
+    result.chance = chance[lobe];
     return result;
+}
+
+/// The delta lobe's sample. pdf = 0 where it is refused.
+BsdfSample deltaSample(Bsdf b, BsdfDirection d) {
+    float side = dot(b.geometric, d.wi);
+    if (d.lobe == LOBE_REFLECTION ? side <= 0.0 : side >= 0.0) return BsdfSample(d.wi, vec3(0.0), 0.0, vec3(0.0), 0.0, d.lobe, true);
+    vec3 weight = d.deltaValue / d.chance;
+    return BsdfSample(d.wi, weight, d.chance, weight, d.chance, d.lobe, true);
+}
+
+/// The sample of a lobe of some width, given bsdfValue of its lobe and direction.
+BsdfSample lobeSample(BsdfDirection d, BsdfValue value) {
+    if (!(value.onePdf > 0.0)) return BsdfSample(d.wi, vec3(0.0), 0.0, vec3(0.0), 0.0, d.lobe, false);
+    return BsdfSample(d.wi, value.all / value.pdf, value.pdf, value.one / value.onePdf, value.onePdf, d.lobe, false);
+}
+
+/// Samples a direction that light may come from.
+BsdfSample bsdfSample(Bsdf b, vec3 wo, vec3 u) {
+    BsdfDirection d = bsdfDirection(b, wo, u);
+    if (d.delta || d.lobe == LOBE_COUNT) return deltaSample(b, d);
+    return lobeSample(d, bsdfValue(b, d.lobe, wo, d.wi));
 }

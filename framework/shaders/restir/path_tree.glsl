@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// Makes the paths of a pixel and resamples them into one reservoir: one spine of BSDF samples from x_1, at each vertex a light sample, and
+// every light the spine runs into is a path of its own.
+//
+// Lin et al. 2022, Generalized Resampled Importance Sampling, section 7.1. Paths of one tree differ in length, technique or lobes: their
+// domains are disjoint, so each enters with weight 1. Roulette is no dimension of the path: it enters the weight, not F (Lin et al. 2026,
+// ReSTIR PT Enhanced, section 6.2.4). x_1 chooses its light sample from several by resampling, whose random density goes into the weight
+// as well (section 6.1).
+#include "base/math.glsl"
+#include "restir/path_vertex.glsl"
+#include "restir/ris.glsl"
+#include "restir/sample_hit.h"
+#include "world/camera.glsl"
+
+/// What the tree may grow to.
+struct TreeLimits {
+    uint segmentsMin;  // shorter paths are left to others: 1 keeps all, 3 leaves out direct light and what the camera sees directly
+    uint segmentsMax;  // scatterings + 1
+    bool roulette;
+};
+
+struct PathTree {
+    uvec2 seed;
+    uint vertex;        // j of the last vertex x_j that was reached; 0: the lens
+    Ray ray;            // to be traced next
+    bool toLight;       // it asks whether the light of the path on offer is visible
+    Ray onward;         // the spine's own next ray, while `ray` goes to a light
+    bool ends;          // there is none
+
+    vec3 throughput;    // f / p of the sampled lobes so far
+    float survival;     // chance that roulette let the spine live so far
+    vec3 from;          // x_{j-1}
+    float before;       // roughness of the lobe sampled there
+    uint lobe;          // that lobe
+    float lobePdf;      // its density of the direction to x_j, its chance included
+    float pdf;          // of all lobes together; 0: camera or delta lobe
+
+    uint k;             // reconnection vertex of paths that go on, 0: none yet
+    Reservoir spine;    // its rc... and G
+    uint lobeBefore, lobeAt;
+    float density;      // of the directions at x_{k-1} and x_k: F's quotient between mixed measure and primary sample space
+    vec3 suffix;        // f / p behind x_k
+    vec2 rcUv;
+
+    SampleHit first;    // x_1 of this tree
+    Reservoir offered;  // a path, W missing
+    vec2 offeredUv;
+    float offeredWeight;
+
+    Ris ris;            // over all trees of the pixel
+    uint offers;
+    Reservoir kept;
+    SampleHit keptHit;
+};
+
+/// Before the first tree of a pixel.
+void treesStart(inout PathTree p) {
+    p.ris = risStart();
+    p.offers = 0u;
+    p.kept = emptyReservoir(1.0);
+}
+
+void treeStart(inout PathTree p, World w, uvec2 seed, vec2 film, vec2 lens) {
+    p.seed = seed;
+    p.vertex = 0u;
+    p.toLight = false;
+    p.ends = false;
+    p.throughput = vec3(1.0);
+    p.survival = 1.0;
+    p.before = 0.0;
+    p.lobe = 0u;
+    p.lobePdf = 0.0;
+    p.pdf = 0.0;
+    p.k = 0u;
+    p.lobeBefore = p.lobeAt = 0u;
+    p.density = 1.0;
+    p.suffix = vec3(1.0);
+    p.rcUv = vec2(0.0);
+    p.spine = emptyReservoir(1.0);
+    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), 0.0, vec2(0.0), vec2(0.0));
+    p.ray = cameraRay(w, film, lens);
+    p.from = p.ray.origin;
+    p.onward = p.ray;
+}
+
+/// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `warp`: what resampling among
+/// light candidates adds to its weight.
+void offer(inout PathTree p, Reservoir path, PathShape shape, vec2 rcUv, vec3 F, float density, float warp) {
+    path.seed = p.seed;
+    path.shape = packShape(shape, 1.0);
+    path.F = F * density;
+    p.offered = path;
+    p.offeredUv = rcUv;
+    p.offeredWeight = finiteWeight(luminance(F) * warp / p.survival);
+}
+
+/// The path on offer takes part in the resampling. `decisions`: seed of the resampling stream.
+void takeOffer(inout PathTree p, uvec2 decisions) {
+    if (!risAdd(p.ris, p.offeredWeight, random1(decisions, p.offers++, RANDOM_FREE))) return;
+    p.kept = p.offered;
+    p.keptHit = p.first;
+    p.keptHit.rcUv = p.offeredUv;
+}
+
+/// Light that the spine ran into at x_j: an emitter's surface, or the environment (hit.primitive NONE).
+void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 direction, float distance, vec3 radiance, float pdfLight) {
+    bool environment = hit.primitive == NONE;
+    float share = emissionShare(rules, p.vertex - 1u, p.pdf, pdfLight);
+    PathShape shape = PathShape(p.vertex, p.k, false, environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE, p.lobeBefore, p.lobeAt);
+    Reservoir path = p.spine;
+    float density = p.density;
+    vec2 uv = p.rcUv;
+    ConnectionCriteria criteria = criteriaOf(rules);
+    bool connectable = p.vertex >= 2u && (environment ? environmentConnectable(criteria, p.before) : emitterConnectable(criteria, p.before, distance));
+    if (p.k > 0u) {
+        // Directly behind x_k the share depends on where the path came from, and is left to those who know.
+        bool last = p.k + 1u == p.vertex;
+        path.radiance = p.suffix * radiance * (last ? 1.0 : share);
+        path.lightPdf = last ? pdfLight : 0.0;
+    } else if (connectable) {
+        shape.k = p.vertex;
+        shape.lobeBefore = p.lobe;
+        path.rcInstance = hit.instance;
+        path.rcPrimitive = hit.primitive;
+        path.rcBarycentrics = packBarycentrics(hit.barycentrics);
+        path.rcDirection = packNormal(direction);
+        path.G = environment ? 1.0 : geometryTerm(p.from, s.position, s.normal);
+        density = p.lobePdf;
+        if (!environment) uv = s.uv;
+    }
+    offer(p, path, shape, uv, p.throughput * radiance * share, density, 1.0);
+}
+
+/// A light sample at x_j (next-event estimation). False: no light.
+bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, vec3 wo, float distance) {
+    // Resampled importance sampling of a candidate by what it would send if nothing were in the way.
+    uint candidates = lightCandidates(rules, p.vertex);
+    LightSample light;
+    vec3 chosen = vec3(0.0);
+    Ris ris = risStart();
+    for (uint i = 0u; i < candidates; ++i) {
+        LightSample l = lightSampleAt(w, pathLight(w, p.seed, p.vertex, i), s.position);
+        if (l.radianceOverPdf == vec3(0.0)) continue;
+        float pdf;
+        vec3 f = bsdfEval(b, wo, onGrid(l.direction), pdf);
+        vec3 sent = f * l.radianceOverPdf * lightShare(rules, p.vertex, l.pdf, pdf);
+        if (!risAdd(ris, luminance(sent), random1(p.seed, p.vertex, RANDOM_FREE | i << 8u))) continue;
+        light = l;
+        chosen = sent;
+    }
+    if (chosen == vec3(0.0)) return false;
+    float warp = ris.wSum / (float(candidates) * luminance(chosen));
+
+    uint type = w.lights.at[light.point.light].type;
+    uint kind = type == LIGHT_TRIANGLE ? PATH_LIGHT_TRIANGLE : type == LIGHT_ENVIRONMENT ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_PUNCTUAL;
+    PathShape shape = PathShape(p.vertex + 1u, p.k, true, kind, p.lobeBefore, p.lobeAt);
+    Reservoir path = p.spine;
+    float density = p.density, pdfLight = light.delta ? 1.0 : light.pdf, roughness = roughestLobe(b, wo);
+    vec2 uv = p.rcUv;
+    if (p.k > 0u) {
+        path.radiance = p.suffix * chosen;
+    } else if (p.vertex >= 2u && surfaceConnectable(criteriaOf(rules), p.before, roughness, distance)) {
+        shape.k = p.vertex;
+        shape.lobeBefore = p.lobe;
+        path.rcInstance = s.instance;
+        path.rcPrimitive = s.primitive;
+        path.rcBarycentrics = packBarycentrics(s.barycentrics);
+        path.rcDirection = packNormal(light.direction);
+        path.radiance = light.radianceOverPdf * pdfLight;
+        path.lightPdf = light.pdf;
+        path.G = geometryTerm(p.from, s.position, s.normal);
+        density = p.lobePdf * pdfLight;
+        uv = s.uv;
+    } else if (lightConnectable(rules, p.vertex, roughness, light.distance)) {
+        shape.k = p.vertex + 1u;
+        path.rcInstance = w.lights.at[light.point.light].instance;
+        path.rcPrimitive = light.delta ? light.point.light : w.lights.at[light.point.light].primitive;
+        path.rcBarycentrics = kind == PATH_LIGHT_ENVIRONMENT ? packUnorm2x16(light.point.uv) : packBarycentrics(light.point.uv);
+        path.G = kind == PATH_LIGHT_TRIANGLE ? light.cosine / square(light.distance) : 1.0;
+        density = pdfLight;
+    }
+    offer(p, path, shape, uv, p.throughput * chosen, density, warp);
+    p.ray = shadowRay(w, s, light);
+    return true;
+}
+
+/// The spine's next direction. False: it ends here.
+bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Surface s, Bsdf b, vec3 wo, float distance) {
+    if (limits.roulette) {
+        float q = min(luminance(p.throughput), 1.0);
+        if (random1(p.seed, p.vertex, RANDOM_ROULETTE) >= q) return false;
+        p.survival *= q;
+    }
+    BsdfDirection d = pathDirection(b, wo, p.seed, p.vertex);
+    BsdfSample next = d.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d) : lobeSample(d, bsdfValue(b, d.lobe, wo, d.wi));
+    if (next.pdf == 0.0 || next.lobeWeight == vec3(0.0)) return false;
+    float roughness = lobeRoughness(b, next.lobe);
+    p.throughput *= next.lobeWeight;
+    if (p.k > 0u) {
+        p.suffix *= next.lobeWeight;
+    } else if (p.vertex >= 2u && surfaceConnectable(criteriaOf(rules), p.before, roughness, distance)) {
+        p.k = p.vertex;
+        p.lobeBefore = p.lobe;
+        p.lobeAt = next.lobe;
+        p.density = p.lobePdf * next.lobePdf;
+        p.rcUv = s.uv;
+        p.spine.rcInstance = s.instance;
+        p.spine.rcPrimitive = s.primitive;
+        p.spine.rcBarycentrics = packBarycentrics(s.barycentrics);
+        p.spine.rcDirection = packNormal(next.wi);
+        p.spine.G = geometryTerm(p.from, s.position, s.normal);
+    }
+    p.from = s.position;
+    p.before = roughness;
+    p.lobe = next.lobe;
+    p.lobePdf = next.lobePdf;
+    p.pdf = next.delta ? 0.0 : next.pdf;
+    p.onward = spawnRay(w, s, next.wi);
+    return true;
+}
+
+/// Goes on from what `ray` hit; false: the tree is finished.
+bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hit hit, uvec2 decisions) {
+    if (p.toLight) {
+        if (hit.primitive == NONE) takeOffer(p, decisions);
+        p.toLight = false;
+        p.ray = p.onward;
+        return !p.ends;
+    }
+    uint j = ++p.vertex;
+    vec3 direction = p.ray.direction, radiance;
+    float distance = FAR, pdfLight;
+    bool escaped = hit.primitive == NONE;
+    Surface s;
+    if (escaped) {
+        radiance = environmentRadiance(w, direction);
+        pdfLight = environmentPdf(w, direction);
+    } else {
+        if (j >= 2u) hit.barycentrics = onGrid(hit.barycentrics);
+        s = surfaceAt(w, hit, direction);
+        distance = length(s.position - p.from);
+        vec3 left = segmentTransmittance(w, s, distance);
+        p.throughput *= left;
+        p.suffix *= left;
+        radiance = emittedRadiance(w, s);
+        pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, distance);
+    }
+    if (j == 1u) {
+        p.first.hit = primaryHit(hit, p.first.hit.film, p.first.hit.lens);
+        if (!escaped) p.first.uv = s.uv;
+    }
+    if (radiance != vec3(0.0) && j >= limits.segmentsMin) {
+        offerEmission(p, rules, hit, s, direction, distance, radiance, pdfLight);
+        takeOffer(p, decisions);
+    }
+    if (escaped || j == limits.segmentsMax) return false;
+    Bsdf b = bsdfAt(w, s);
+    if (j + 1u >= limits.segmentsMin && !bsdfAllDelta(b, -direction)) p.toLight = offerLight(p, w, rules, s, b, -direction, distance);
+    p.ends = !growSpine(p, w, rules, limits, s, b, -direction, distance);
+    if (p.toLight) return true;
+    p.ray = p.onward;
+    return !p.ends;
+}
+
+Ray treeRay(PathTree p, out bool anyHit, out uint purpose) {
+    anyHit = p.toLight;
+    purpose = p.toLight ? RAYS_NEE : p.vertex == 0u ? RAYS_PRIMARY : RAYS_CONTINUE;
+    return p.ray;
+}
+
+/// The reservoir of `trees` trees, confidence 1.
+Reservoir treesReservoir(PathTree p, uint trees) {
+    p.ris.wSum /= float(trees);
+    p.kept.W = contributionWeight(p.ris, target(p.kept));
+    return p.kept;
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// What paths do at a vertex, alike where they are made (path_tree.glsl) and where they are shifted (shift.glsl).
+//
+// From x_2 on, vertices lie on a grid of 16 bits per barycentric, and directions that are not of delta lobes on one of 32 bits: the path is
+// exactly what a Reservoir stores of it, and a shift back finds the numbers that it started from. The grids are so fine that sums over them
+// stand for the integrals.
+#include "base/random.glsl"
+#include "bsdf/material.glsl"
+#include "light/light.glsl"
+#include "restir/criteria.glsl"
+#include "restir/jacobian.glsl"
+#include "restir/rules.h"
+#include "world/primary_hit.h"
+
+vec2 onGrid(vec2 barycentrics) { return unpackBarycentrics(packBarycentrics(barycentrics)); }
+vec3 onGrid(vec3 direction) { return unpackNormal(packNormal(direction)); }
+
+/// A direction of the path and the lobe it came from, by the path's own numbers.
+BsdfDirection pathDirection(Bsdf b, vec3 wo, uvec2 seed, uint vertex) {
+    BsdfDirection d = bsdfDirection(b, wo, random3(seed, vertex, RANDOM_BSDF));
+    if (!d.delta && d.wi != vec3(0.0)) d.wi = onGrid(d.wi);
+    return d;
+}
+
+/// A light point of the path by its own numbers. Candidate 0 is the only one but at x_1 (ShiftRules.lightCandidates).
+LightPoint pathLight(World w, uvec2 seed, uint vertex, uint candidate) {
+    uint tag = candidate << 8u;
+    LightPoint p = chooseLight(w, randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE | tag), random3(seed, vertex, RANDOM_LIGHT_POINT | tag));
+    if (p.light == NONE) return p;
+    uint type = w.lights.at[p.light].type;
+    if (type == LIGHT_TRIANGLE) p.uv = onGrid(p.uv);
+    if (type == LIGHT_ENVIRONMENT) p.uv = unpackUnorm2x16(packUnorm2x16(p.uv));
+    return p;
+}
+
+uint lightCandidates(ShiftRules rules, uint vertex) { return vertex == 1u ? rules.lightCandidates : 1u; }
+
+/// omega_t of a light that the BSDF at `vertex` found with total density pdf (0: by a delta lobe, or it is seen by the camera).
+float emissionShare(ShiftRules rules, uint vertex, float pdf, float pdfLight) {
+    if (pdf == 0.0 || rules.technique == TECHNIQUE_BSDF) return 1.0;
+    return rules.technique == TECHNIQUE_LIGHT ? 0.0 : misWeight(pdf, float(lightCandidates(rules, vertex)) * pdfLight);
+}
+
+/// omega_t of a light that light sampling at `vertex` found with density pdfLight (0: a light without extent).
+float lightShare(ShiftRules rules, uint vertex, float pdfLight, float pdf) {
+    if (pdfLight == 0.0 || rules.technique == TECHNIQUE_LIGHT) return 1.0;
+    return rules.technique == TECHNIQUE_BSDF ? 0.0 : misWeight(float(lightCandidates(rules, vertex)) * pdfLight, pdf);
+}
+
+ConnectionCriteria criteriaOf(ShiftRules rules) { return ConnectionCriteria(rules.roughness, rules.distance); }
+
+/// Roughness of a vertex that scatters towards a light sample with all its lobes: that of the roughest. 0 where all are delta lobes.
+float roughestLobe(Bsdf b, vec3 wo) {
+    vec4 chance = lobeProbabilities(b, wo);
+    if (chance.x > 0.0) return 1.0;
+    return max(chance.y > 0.0 ? lobeRoughness(b, LOBE_REFLECTION) : 0.0, chance.z > 0.0 ? lobeRoughness(b, LOBE_TRANSMISSION) : 0.0);
+}
+
+/// Whether the light behind `vertex`, found by light sampling, may be x_k itself: always where the numbers alone don't tell the light
+/// (Lin et al. 2026, ReSTIR PT Enhanced, section 6.2.3).
+bool lightConnectable(ShiftRules rules, uint vertex, float roughness, float distance) {
+    if (rules.forcedNee != 0u || lightCandidates(rules, vertex) > 1u) return true;
+    return emitterConnectable(criteriaOf(rules), roughness, distance);
+}
+
+/// Place inside the pixel on a grid of 2^-16, so that it survives the way through image coordinates and back.
+vec2 filmGrid(vec2 place) { return floor(place * 65536.0) * (1.0 / 65536.0); }
+vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) { return (vec2(pixel) + place) / vec2(size); }
+vec2 filmPlace(vec2 film, ivec2 pixel, uvec2 size) { return round((film * vec2(size) - vec2(pixel)) * 65536.0) * (1.0 / 65536.0); }
+
+/// Do two camera rays coincide? The lens sample counts only where there is a lens.
+bool sameCameraSample(World w, PrimaryHit a, vec2 film, vec2 lens) { return a.film == film && (w.camera.aperture <= 0.0 || a.lens == lens); }
+
+PrimaryHit primaryHit(Hit hit, vec2 film, vec2 lens) { return PrimaryHit(hit.instance, hit.primitive, hit.barycentrics, film, lens); }

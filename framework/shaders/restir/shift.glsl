@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+// The hybrid shift: takes a path to another pixel or frame, as a step machine that asks for one ray at a time.
+//
+// The camera ray keeps its place inside the pixel and on the lens (lens-vertex copy: Zhang et al. 2024, Area ReSTIR; Jacobian 1). From y_1 the
+// path's own numbers are replayed up to y_{k-1}, which is connected to x_k; what follows x_k is kept (Lin et al. 2022, Generalized Resampled
+// Importance Sampling, section 7.2; Lin et al. 2026, ReSTIR PT Enhanced, section 2.3). Without x_k the whole path is replayed. Where
+// something moved between the two Worlds, what follows x_k is walked again by its numbers, so that its radiance belongs to the World it is
+// shifted to.
+//
+// The shift fails (jacobian 0) wherever shifting back would not lead to the same path: before k no pair of vertices may be connectable, the
+// pair at k must be, and the light must be met as it was.
+#include "base/math.glsl"
+#include "restir/path_vertex.glsl"
+#include "restir/sample_hit.h"
+#include "world/camera.glsl"
+
+const uint SHIFT_WALK = 0u;     // `ray` looks for the next vertex
+const uint SHIFT_CONNECT = 1u;  // it asks whether y_{k-1} sees x_k
+const uint SHIFT_LIGHT = 2u;    // it asks whether the last vertex sees the light sample
+const uint SHIFT_DONE = 3u;
+
+struct Shift {
+    Reservoir path;      // the base path; after success the shifted one: seed and shape stay, W means nothing
+    SampleHit hit;       // of the shifted path
+    float jacobian;      // |dT/dx| in the mixed measure; 0: failed
+    PathShape shape;
+    bool refresh;        // walk anew what follows x_k
+    bool known;          // y_1 is in `hit` already: no ray is needed
+    uint state;          // SHIFT_*
+    uint vertex;         // j of the last vertex y_j that was reached
+    Ray ray;
+    Ray onward;          // leaves x_k while `ray` connects to it, if `resumes`
+    bool resumes;
+    vec3 throughput;     // f / p up to y_{k-1}, times f there; behind x_k of the suffix alone
+    vec3 prefix;         // behind x_k: all up to and with f at x_k
+    vec3 from;           // y_{j-1}
+    float before;        // roughness of the lobe sampled there
+    float pdf;           // of all lobes, of the direction from there; 0: camera or delta lobe
+};
+
+/// Starts the shift of `path`, whose camera sample is `base`, from pixel `from` to pixel `to` of an image of `size` pixels. `centre`: the known
+/// camera hit of pixel `to` in `w`, which saves a ray where it is of the same camera sample. False: the reservoir holds no path.
+bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 from, ivec2 to, uvec2 size, PrimaryHit centre, bool refresh) {
+    vec2 film = filmOf(to, filmPlace(base.hit.film, from, size), size);
+    t.path = path;
+    t.hit = base;
+    t.known = sameCameraSample(w, centre, film, base.hit.lens);
+    t.hit.hit = t.known ? centre : PrimaryHit(NONE, NONE, vec2(0.0), film, base.hit.lens);
+    t.jacobian = holdsPath(path) ? 1.0 : 0.0;
+    t.shape = unpackShape(path.shape);
+    t.refresh = refresh;
+    t.state = SHIFT_WALK;
+    t.vertex = 0u;
+    t.resumes = false;
+    t.throughput = t.prefix = vec3(1.0);
+    t.before = t.pdf = 0.0;
+    t.ray = cameraRay(w, film, base.hit.lens);
+    t.onward = t.ray;
+    t.from = t.ray.origin;
+    return holdsPath(path);
+}
+
+Ray shiftRay(Shift t, out bool anyHit, out uint purpose) {
+    anyHit = t.state != SHIFT_WALK;
+    purpose = t.state == SHIFT_CONNECT ? RAYS_CONNECT : t.state == SHIFT_LIGHT ? RAYS_NEE : t.vertex == 0u ? RAYS_PRIMARY : RAYS_REPLAY;
+    Ray ray = t.ray;
+    if (t.known && t.vertex == 0u) {
+        purpose = RAYS_PURPOSES;
+        ray.tMax = -1.0;
+    }
+    return ray;
+}
+
+void shiftFail(inout Shift t) {
+    t.jacobian = 0.0;
+    t.state = SHIFT_DONE;
+}
+
+/// Where it is decided whether the shift can be undone: pairs before k must not be connectable, the pair at k must be.
+bool agreesOnConnection(Shift t, bool target, bool connectable) {
+    bool suffix = t.shape.k > 0u && t.vertex > t.shape.k;
+    return t.vertex < 2u || suffix || connectable == target;
+}
+
+/// F of a replayed path, or radiance and F of a suffix walked again, that ends with `radiance`. The share of a light that the BSDF of x_k found
+/// belongs to F but not to the stored radiance, because it depends on where the path came from.
+void reachLight(inout Shift t, vec3 radiance, float share, float pdfLight) {
+    if (t.shape.k == 0u || t.vertex <= t.shape.k) {
+        t.path.F = t.throughput * radiance * share;
+        return;
+    }
+    bool last = !t.shape.nee && t.shape.k + 1u == t.shape.d;
+    t.path.radiance = t.throughput * radiance * (last ? 1.0 : share);
+    t.path.lightPdf = last ? pdfLight : 0.0;
+    t.path.F = t.prefix * t.path.radiance * (last ? share : 1.0);
+}
+
+/// The path ends here, on an emitter or in the environment (hit.primitive NONE).
+void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec3 direction, float distance, bool target) {
+    bool environment = hit.primitive == NONE;
+    ConnectionCriteria criteria = criteriaOf(rules);
+    bool connectable = environment ? environmentConnectable(criteria, t.before) : emitterConnectable(criteria, t.before, distance);
+    bool alike = !t.shape.nee && t.vertex == t.shape.d && t.shape.light == (environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE);
+    if (!alike || !agreesOnConnection(t, target, connectable)) {
+        shiftFail(t);
+        return;
+    }
+    vec3 radiance;
+    float pdfLight;
+    if (environment) {
+        radiance = environmentRadiance(w, direction);
+        pdfLight = environmentPdf(w, direction);
+    } else {
+        radiance = emittedRadiance(w, s);
+        pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, distance);
+    }
+    reachLight(t, radiance, emissionShare(rules, t.vertex - 1u, t.pdf, pdfLight), pdfLight);
+    if (!target) t.state = SHIFT_DONE;
+    if (target && !environment) {
+        float G = geometryTerm(t.from, s.position, s.normal);
+        t.jacobian = reconnectionJacobian(G, t.path.G);
+        t.path.G = G;
+    }
+}
+
+/// The light point that x_k is. NONE where this World has no such light.
+LightPoint storedLight(World w, Shift t) {
+    if (t.shape.light == PATH_LIGHT_ENVIRONMENT) return LightPoint(w.environmentLight, unpackUnorm2x16(t.path.rcBarycentrics));
+    if (t.shape.light == PATH_LIGHT_PUNCTUAL) return LightPoint(t.path.rcPrimitive, vec2(0.0));
+    uint first = w.instances.at[t.path.rcInstance].firstLight, emitter = w.emitters.at[t.path.rcPrimitive];
+    return LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, unpackBarycentrics(t.path.rcBarycentrics));
+}
+
+// What a vertex scatters towards.
+const uint TOWARDS_SAMPLE = 0u;  // y_{j+1}, by the path's numbers
+const uint TOWARDS_LIGHT = 1u;   // a light sample, by the path's numbers or stored as x_k
+const uint TOWARDS_TARGET = 2u;  // x_k
+const uint TOWARDS_SUFFIX = 3u;  // what follows x_k, in the stored direction
+
+/// Looks at vertex `hit`, which `direction` leads to: y_j, or x_k (`target`) before it is known whether y_{k-1} sees it. True: hit and direction
+/// have become x_k, which wants to be looked at before any ray is traced.
+bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout vec3 direction, inout bool target) {
+    uint j = t.vertex, kind = reconnectionKind(t.shape);
+    Surface s;
+    float distance = FAR;
+    if (hit.primitive != NONE) {
+        s = surfaceAt(w, hit, direction);
+        distance = length(s.position - t.from);
+        t.throughput *= segmentTransmittance(w, s, distance);
+        if (j == 1u) t.hit.uv = s.uv;
+    }
+    if (hit.primitive == NONE || j == t.shape.d) {
+        meetLight(t, w, rules, hit, s, direction, distance, target);
+        return false;
+    }
+    Bsdf b = bsdfAt(w, s);
+    vec3 wo = -direction, way;
+    bool lastBeforeLight = t.shape.nee && j + 1u == t.shape.d;
+    uint towards = j + 1u == t.shape.k && kind != RC_LIGHT ? TOWARDS_TARGET
+                   : lastBeforeLight && (!target || t.refresh) ? TOWARDS_LIGHT : target ? TOWARDS_SUFFIX : TOWARDS_SAMPLE;
+
+    // Direction and lobe.
+    uint lobe;
+    BsdfDirection next;
+    LightSample light;
+    vec3 goal;  // x_k
+    if (towards == TOWARDS_SAMPLE) {
+        next = pathDirection(b, wo, t.path.seed, j);
+        lobe = next.lobe;
+        way = next.wi;
+    } else if (towards == TOWARDS_LIGHT) {
+        light = lightSampleAt(w, kind == RC_LIGHT ? storedLight(w, t) : pathLight(w, t.path.seed, j, 0u), s.position);
+        lobe = LOBE_ALL;
+        way = onGrid(light.direction);
+    } else if (towards == TOWARDS_TARGET) {
+        lobe = t.shape.lobeBefore;
+        way = unpackNormal(t.path.rcDirection);
+        if (kind != RC_ENVIRONMENT) {
+            goal = positionOn(w, t.path.rcInstance, t.path.rcPrimitive, unpackBarycentrics(t.path.rcBarycentrics));
+            way = safeNormalize(goal - s.position, way);
+        }
+    } else {
+        lobe = kind == RC_TO_LIGHT ? LOBE_ALL : t.shape.lobeAt;
+        way = unpackNormal(t.path.rcDirection);
+    }
+    float roughness = lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, lobe);
+    if (!agreesOnConnection(t, target, surfaceConnectable(criteriaOf(rules), t.before, roughness, distance))) {
+        shiftFail(t);
+        return false;
+    }
+    BsdfValue value = bsdfValue(b, lobe, wo, way);
+
+    if (towards == TOWARDS_SAMPLE) {
+        BsdfSample drawn = next.delta || lobe == LOBE_COUNT ? deltaSample(b, next) : lobeSample(next, value);
+        t.throughput *= drawn.lobeWeight;
+        t.before = roughness;
+        t.pdf = drawn.delta ? 0.0 : drawn.pdf;
+        t.from = s.position;
+        t.ray = spawnRay(w, s, way);
+        if (t.throughput == vec3(0.0)) shiftFail(t);
+        return false;
+    }
+    if (towards == TOWARDS_TARGET) {
+        t.throughput *= value.one;
+        t.before = roughness;
+        t.pdf = value.pdf;
+        t.from = s.position;
+        t.vertex = t.shape.k;
+        t.state = SHIFT_CONNECT;
+        t.ray = kind == RC_ENVIRONMENT ? spawnRay(w, s, way) : rayBetween(w, s, goal);
+        hit = Hit(0.0, unpackBarycentrics(t.path.rcBarycentrics), kind == RC_ENVIRONMENT ? NONE : t.path.rcPrimitive, t.path.rcInstance);
+        direction = way;
+        target = true;
+        if (t.throughput == vec3(0.0)) shiftFail(t);
+        return t.state != SHIFT_DONE;
+    }
+    float pdfLight = towards == TOWARDS_LIGHT ? light.pdf : t.path.lightPdf;  // 0: a light without extent
+    float density = pdfLight > 0.0 ? pdfLight : 1.0;
+    bool sampled = kind == RC_TO_LIGHT || towards == TOWARDS_LIGHT;  // the light, by light sampling at this vertex
+    float share = sampled ? lightShare(rules, j, pdfLight, value.pdf) : j + 1u == t.shape.d ? emissionShare(rules, j, value.pdf, pdfLight) : 1.0;
+    if (!target) {
+        // The last vertex of a replayed path, of a suffix, or y_{k-1} before a light that is x_k.
+        bool stored = kind == RC_LIGHT;
+        if (t.shape.k == 0u || stored) {
+            if (lightConnectable(rules, j, roughness, light.distance) != stored) shiftFail(t);
+        }
+        reachLight(t, value.all * light.radianceOverPdf * (stored ? density : 1.0), share, 0.0);
+        if (stored && t.shape.light == PATH_LIGHT_TRIANGLE) {
+            float G = light.cosine / square(light.distance);
+            t.jacobian *= reconnectionJacobian(G, t.path.G);
+            t.path.G = G;
+        }
+        t.ray = shadowRay(w, s, light);
+        if (t.state != SHIFT_DONE) t.state = stored ? SHIFT_CONNECT : SHIFT_LIGHT;
+        return false;
+    }
+    // x_k between y_{k-1} and what follows.
+    float G = geometryTerm(t.from, s.position, s.normal);
+    t.jacobian = reconnectionJacobian(G, t.path.G);
+    t.path.G = G;
+    if (towards == TOWARDS_LIGHT) {
+        // The light sample's numbers stay, its direction doesn't: d omega_y / d omega_x is the quotient of the densities.
+        t.jacobian *= jacobianRatio(t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);
+        t.path.lightPdf = pdfLight;
+        t.path.radiance = light.radianceOverPdf * density;
+        t.path.rcDirection = packNormal(way);
+    }
+    t.prefix = t.throughput * (sampled ? value.all : value.one);
+    t.path.F = t.prefix * t.path.radiance * share;
+    if (t.prefix == vec3(0.0)) shiftFail(t);
+    if (!t.refresh) return false;
+    t.resumes = true;
+    t.onward = sampled ? shadowRay(w, s, light) : spawnRay(w, s, way);
+    t.throughput = vec3(1.0);
+    t.pdf = value.pdf;
+    t.from = s.position;
+    return false;
+}
+
+/// Goes on from what `ray` hit; false: the shift is finished, and failed if jacobian is 0.
+bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
+    if (t.state == SHIFT_WALK) {
+        vec3 direction = t.ray.direction;
+        if (++t.vertex == 1u) {
+            if (t.known) hit = Hit(0.0, t.hit.hit.barycentrics, t.hit.hit.primitive, t.hit.hit.instance);
+            t.hit.hit = primaryHit(hit, t.hit.hit.film, t.hit.hit.lens);
+        } else {
+            hit.barycentrics = onGrid(hit.barycentrics);
+        }
+        bool target = false;
+        while (shiftVertex(t, w, rules, hit, direction, target)) {}
+    } else if (hit.primitive != NONE) {
+        shiftFail(t);
+    } else if (t.resumes) {
+        t.resumes = false;
+        t.ray = t.onward;
+        t.state = t.shape.nee && t.shape.k + 1u == t.shape.d ? SHIFT_LIGHT : SHIFT_WALK;
+    } else {
+        t.state = SHIFT_DONE;
+    }
+    // Nothing is gained by tracing a path that is black already; with a suffix to come, F is not known yet.
+    if (t.path.F == vec3(0.0) && !(t.refresh && reconnectionKind(t.shape) == RC_SURFACE && t.state != SHIFT_DONE)) t.jacobian = 0.0;
+    return t.jacobian > 0.0 && t.state != SHIFT_DONE;
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Whether two pixels look at surfaces alike enough to reuse each other's paths. Only camera hits through pixel centres are asked, never
+// samples: which neighbours count must not depend on what they hold.
+#include "world/primary_hit.h"
+#include "world/surface.glsl"
+
+/// What a pixel sees, as far as that question goes.
+struct PixelView {
+    bool sky;      // nothing was hit
+    vec3 normal;   // smooth, towards the camera
+    float depth;   // along the view direction
+};
+
+PixelView pixelView(World w, PrimaryHit h) {
+    PixelView v = PixelView(true, vec3(0.0), 0.0);
+    if (h.primitive == NONE) return v;
+    uvec3 corners = cornersOf(w, h.primitive);
+    Placement placement = placementOf(w, h.instance);
+    vec3 weights = vec3(1.0 - h.barycentrics.x - h.barycentrics.y, h.barycentrics), n = vec3(0.0);
+    for (int i = 0; i < 3; ++i) n += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
+    vec3 way = placePoint(placement, pointOn(w, corners, h.barycentrics).position) - w.camera.position;
+    n = safeNormalize(placeNormal(placement, n), vec3(0.0, 1.0, 0.0));
+    return PixelView(false, dot(n, way) > 0.0 ? -n : n, dot(way, w.camera.forward));
+}
+
+/// Symmetric in a and b. `cosine`: least cosine of the angle between the normals; `depth`: most difference of depths, relative to the larger.
+bool similarViews(PixelView a, PixelView b, float cosine, float depth) {
+    if (a.sky || b.sky) return a.sky && b.sky;
+    return dot(a.normal, b.normal) >= cosine && abs(a.depth - b.depth) <= depth * max(a.depth, b.depth);
+}

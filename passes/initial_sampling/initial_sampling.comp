@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#include "pass.glsl"
+#include "restir/path_tree.glsl"
+
+struct Path {
+    PathTree tree;
+    uvec2 decisions;    // seed of the resampling
+    bool known;         // the camera hit is
+    PrimaryHit centre;
+};
+
+World scene = world();
+
+uint pathItems() { return uint(params.candidates); }
+
+World pathWorld(uint item) { return scene; }
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    if (item == 0) treesStart(p.tree);
+    p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
+    uvec2 seed = pathSeed(uvec2(pixel), frameIndex() * uint(params.candidates) + item, runSeed());
+    vec2 place = params.pixelCentre ? vec2(0.5) : filmGrid(random2(seed, 0, RANDOM_FILM));
+    vec2 film = filmOf(pixel, place, frameSize()), lens = random2(seed, 0, RANDOM_LENS);
+    treeStart(p.tree, w, seed, film, lens);
+    p.known = false;
+#if HAS_hits
+    p.centre = hits(pixelIndex(pixel));
+    p.known = sameCameraSample(w, p.centre, film, lens);
+#endif
+    return true;
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
+    Ray ray = treeRay(p.tree, anyHit, purpose);
+    if (p.known && p.tree.vertex == 0) {
+        purpose = RAYS_PURPOSES;
+        ray.tMax = -1;
+    }
+    return ray;
+}
+
+bool pathStep(inout Path p, World w, Hit hit) {
+    if (p.known && p.tree.vertex == 0) hit = Hit(0, p.centre.barycentrics, p.centre.primitive, p.centre.instance);
+    TreeLimits limits = TreeLimits(uint(params.segmentsMin), uint(params.bounces) + 1, params.roulette);
+    return treeStep(p.tree, w, rules(), limits, hit, p.decisions);
+}
+
+void pathEnd(Path p, World w, ivec2 pixel) {
+    Reservoir r = treesReservoir(p.tree, uint(params.candidates));
+    storeReservoirs(pixelIndex(pixel), r);
+    if (holdsPath(r)) storeSamples(pixelIndex(pixel), p.tree.keptHit);
+    else storeSamples(pixelIndex(pixel), p.tree.first);
+}
+
+#include "trace/driver.glsl"
