@@ -33,6 +33,11 @@ void appendWord(std::vector<uint8_t>& bytes, uint32_t word) {
 
 }  // namespace
 
+glm::quat turnTo(const glm::vec3& direction) {
+    const glm::vec3 up = std::abs(glm::normalize(direction).y) > 0.99f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+    return glm::quatLookAt(glm::normalize(direction), up);
+}
+
 glm::quat turnY(float degrees) { return glm::angleAxis(glm::radians(degrees), glm::vec3(0, 1, 0)); }
 
 void Model::add(int material, const Mesh& mesh) {
@@ -81,14 +86,16 @@ Material Glb::dressed(Material material, const Textures& painted) {
 }
 
 int Glb::addMaterial(const Material& m) {
-    json surface = {
-        {"baseColorFactor", array(glm::vec4(m.color, 1))}, {"metallicFactor", tidy(m.metalness)}, {"roughnessFactor", tidy(m.roughness)}};
+    json surface = {{"baseColorFactor", array(glm::vec4(m.color, m.alpha))},
+                    {"metallicFactor", tidy(m.metalness)},
+                    {"roughnessFactor", tidy(m.roughness)}};
     if (m.colorPicture != Material::none) surface["baseColorTexture"] = {{"index", m.colorPicture}};
     if (m.roughnessPicture != Material::none) surface["metallicRoughnessTexture"] = {{"index", m.roughnessPicture}};
 
     json material = {{"name", m.name}, {"pbrMetallicRoughness", surface}};
     if (m.normalPicture != Material::none) material["normalTexture"] = {{"index", m.normalPicture}, {"scale", tidy(m.normalScale)}};
     if (m.mask) material["alphaMode"] = "MASK", material["alphaCutoff"] = 0.5;
+    if (m.alpha < 1) material["alphaMode"] = "BLEND";
     if (m.doubleSided) material["doubleSided"] = true;
 
     json extended = json::object();
@@ -166,16 +173,47 @@ int Glb::addMesh(const Model& model) {
     return addMesh(model.name, parts);
 }
 
-void Glb::addNode(const std::string& name, int mesh, const Placement& placement) {
-    json node = {{"name", name}, {"mesh", mesh}};
+int Glb::addPlacedNode(json node, const Placement& placement) {
     if (placement.translation != glm::vec3(0)) node["translation"] = array(placement.translation);
     const glm::quat& q = placement.rotation;
     if (q != glm::quat(1, 0, 0, 0)) node["rotation"] = array(glm::vec4(q.x, q.y, q.z, q.w));
     if (placement.scale != glm::vec3(1)) node["scale"] = array(placement.scale);
     nodes.push_back(node);
+    return int(nodes.size()) - 1;
 }
 
-void Glb::addNode(const Model& model, const Placement& placement) { addNode(model.name, addMesh(model), placement); }
+int Glb::addNode(const std::string& name, int mesh, const Placement& placement) {
+    return addPlacedNode({{"name", name}, {"mesh", mesh}}, placement);
+}
+
+int Glb::addNode(const Model& model, const Placement& placement) { return addNode(model.name, addMesh(model), placement); }
+
+int Glb::addNode(const LightSource& light, const Placement& placement) {
+    const char* kinds[] = {"point", "spot", "directional"};
+    json source = {
+        {"name", light.name}, {"type", kinds[int(light.kind)]}, {"color", array(light.color)}, {"intensity", tidy(light.intensity)}};
+    if (light.kind == LightSource::Kind::spot)
+        source["spot"] = {{"innerConeAngle", tidy(glm::radians(light.innerDegrees))},
+                          {"outerConeAngle", tidy(glm::radians(light.outerDegrees))}};
+    lights.push_back(source);
+    use("KHR_lights_punctual");
+    return addPlacedNode({{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", int(lights.size()) - 1}}}}}}, placement);
+}
+
+void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values) {
+    if (seconds.empty() || seconds.size() != values.size()) throw std::logic_error("an animation needs a value for each of its times");
+    const int input = addAccessor(seconds.data(), seconds.size(), 1, floating, 0);
+    accessors.back()["min"] = json::array({seconds.front()});  // 3.11: the input of a sampler states its bounds
+    accessors.back()["max"] = json::array({seconds.back()});
+    const int components = motion == Motion::rotation ? 4 : 3;
+    std::vector<float> numbers;
+    for (const glm::vec4& value : values)
+        for (int k = 0; k < components; ++k) numbers.push_back(value[k]);
+    const int output = addAccessor(numbers.data(), values.size(), components, floating, 0);
+    samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    channels.push_back({{"sampler", int(samplers.size()) - 1},
+                        {"target", {{"node", node}, {"path", motion == Motion::rotation ? "rotation" : "translation"}}}});
+}
 
 void Glb::write(const std::filesystem::path& path) const {
     json roots = json::array();
@@ -196,6 +234,8 @@ void Glb::write(const std::filesystem::path& path) const {
         root["textures"] = textures;
         root["samplers"] = json::array({{{"magFilter", linear}, {"minFilter", linearMipmapLinear}, {"wrapS", repeat}, {"wrapT", repeat}}});
     }
+    if (!channels.empty()) root["animations"] = json::array({{{"channels", channels}, {"samplers", samplers}}});
+    if (!lights.empty()) root["extensions"]["KHR_lights_punctual"]["lights"] = lights;
     if (!extensions.empty()) root["extensionsUsed"] = extensions;
 
     // Section 4.4: twelve bytes of header, then a JSON chunk padded with spaces and a binary chunk padded with zeros.

@@ -24,6 +24,7 @@ struct Material {
 
     std::string name;
     glm::vec3 color{1};
+    float alpha = 1;  ///< below 1 the material blends: the rest of the light passes straight on
     float roughness = 1;
     float metalness = 0;
     glm::vec3 emission{0};  ///< radiance, any size
@@ -40,12 +41,30 @@ struct Material {
     float normalScale = 1;
 };
 
+/// A light without extent (KHR_lights_punctual): it shines along its node's -z.
+struct LightSource {
+    enum class Kind { point, spot, directional };
+
+    std::string name;
+    Kind kind = Kind::point;
+    glm::vec3 color{1};
+    float intensity = 1;     ///< cd; lx of a directional light
+    float innerDegrees = 0;  ///< of a spot: half angle that is fully lit
+    float outerDegrees = 45;
+};
+
+/// What an animation moves of a node.
+enum class Motion { translation, rotation };
+
 /// Where a node stands.
 struct Placement {
     glm::vec3 translation{0};
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1};
 };
+
+/// A rotation that sends -z along `direction`, for lights.
+glm::quat turnTo(const glm::vec3& direction);
 
 /// A rotation about +y, degrees, counter-clockwise seen from above.
 glm::quat turnY(float degrees);
@@ -73,10 +92,14 @@ public:
 
     /// Computes tangents for the parts whose material has a normal picture, and adds the mesh.
     int addMesh(const Model& model);
-    void addNode(const std::string& name, int mesh, const Placement& placement = {});
+    int addNode(const std::string& name, int mesh, const Placement& placement = {});
 
     /// addMesh and addNode in one, for things that stand once.
-    void addNode(const Model& model, const Placement& placement = {});
+    int addNode(const Model& model, const Placement& placement = {});
+    int addNode(const LightSource& light, const Placement& placement = {});
+
+    /// Linear keys at the given seconds; a rotation's are quaternions (x, y, z, w).
+    void animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values);
 
     /// Writes aside and renames, so that no half-written file is ever seen.
     void write(const std::filesystem::path& path) const;
@@ -87,12 +110,14 @@ private:
 
     nlohmann::json pictures = nlohmann::json::array(), textures = nlohmann::json::array(), materials = nlohmann::json::array();
     nlohmann::json views = nlohmann::json::array(), accessors = nlohmann::json::array();
-    nlohmann::json meshes = nlohmann::json::array(), nodes = nlohmann::json::array();
-    std::vector<nlohmann::json> geometries;  ///< primitives without their material
+    nlohmann::json meshes = nlohmann::json::array(), nodes = nlohmann::json::array(), lights = nlohmann::json::array();
+    nlohmann::json channels = nlohmann::json::array(), samplers = nlohmann::json::array();  ///< of the one animation
+    std::vector<nlohmann::json> geometries;                                                 ///< primitives without their material
     std::vector<std::string> extensions;
     std::vector<uint8_t> binary;
 
     void use(const std::string& extension);
+    int addPlacedNode(nlohmann::json node, const Placement& placement);
 };
 
 }  // namespace lodestir::generate

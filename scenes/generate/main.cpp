@@ -16,8 +16,9 @@ int main(int argc, char** argv) {
         const char* name;
         void (*write)(const std::filesystem::path&);
     };
-    const Scene scenes[] = {
-        {"cornell", writeCornell}, {"material_spheres", writeMaterialSpheres}, {"interior", writeInterior}, {"rock", writeRock}};
+    const Scene scenes[] = {{"cornell", writeCornell}, {"material_spheres", writeMaterialSpheres}, {"interior", writeInterior},
+                            {"rock", writeRock},       {"ensemble_rooms", writeEnsembleRooms},     {"ensemble_views", writeEnsembleViews},
+                            {"furnace", writeFurnace}};
 
     if (argc < 2) {
         std::fprintf(stderr, "usage: generate_scenes FOLDER [NAME]...\nnames:");

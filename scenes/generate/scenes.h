@@ -10,5 +10,8 @@ void writeCornell(const std::filesystem::path& folder);
 void writeMaterialSpheres(const std::filesystem::path& folder);
 void writeInterior(const std::filesystem::path& folder);
 void writeRock(const std::filesystem::path& folder);
+void writeEnsembleRooms(const std::filesystem::path& folder);
+void writeEnsembleViews(const std::filesystem::path& folder);
+void writeFurnace(const std::filesystem::path& folder);
 
 }  // namespace lodestir::generate
