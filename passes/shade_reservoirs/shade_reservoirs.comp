@@ -17,12 +17,12 @@ vec3 emissionAt(World w, PrimaryHit h) {
 
 vec3 radianceOf(ivec2 p, Reservoir r) {
 #if HAS_color
-    vec3 radiance = color(p);
+    vec3 radiance = colorRgba(p).rgb;
 #else
     vec3 radiance = shadeReservoir(r);
 #endif
 #if HAS_add
-    radiance += add(p);
+    radiance += addRgba(p).rgb;
 #endif
 #if HAS_hits
     if (params.emission) radiance += emissionAt(world(), hits(pixelIndex(p)));

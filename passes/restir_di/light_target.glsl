@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// What a light point would send to the camera by way of a pixel's surface: the integrand of direct light without visibility, in the light
+// point's own measure. Points keep their identity from pixel to pixel, so that reuse has no Jacobian.
+#include "bsdf/material.glsl"
+#include "light/light.glsl"
+#include "light_reservoir.h"
+#include "restir/mis.glsl"
+#include "restir/ris.glsl"
+#include "restir/similarity.glsl"
+#include "world/camera.glsl"
+
+/// The surface that a pixel sees, ready to be lit.
+struct LitSurface {
+    bool sky;  // there is none
+    Surface s;
+    Bsdf b;
+    vec3 wo;
+};
+
+LitSurface litSurface(World w, PrimaryHit h) {
+    LitSurface l;
+    l.sky = h.primitive == NONE;
+    if (l.sky) return l;
+    l.wo = -cameraRay(w, h.film, h.lens).direction;
+    l.s = surfaceAt(w, Hit(0.0, h.barycentrics, h.primitive, h.instance), -l.wo);
+    l.b = bsdfAt(w, l.s);
+    return l;
+}
+
+/// Density of the point in its own measure: per area, per steradian of the environment; 1 for a light without extent.
+float pointDensity(LightSample l) {
+    if (l.delta) return 1.0;
+    return l.distance < FAR ? l.pdf * l.cosine / square(l.distance) : l.pdf;
+}
+
+/// f |cos| L of the light point seen from the surface, per its own measure.
+vec3 arriving(LitSurface l, LightSample light) {
+    float pdf;
+    return bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf * pointDensity(light);
+}
+
+/// p^ of the reservoir's point at another surface.
+float targetAt(World w, LitSurface l, LightReservoir r) {
+    if (l.sky || r.W <= 0.0 || r.light >= w.lightCount) return 0.0;
+    return luminance(arriving(l, lightSampleAt(w, LightPoint(r.light, r.uv), l.s.position)));
+}

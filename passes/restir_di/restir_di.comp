@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Spatial reuse and the shadow ray of the point that is left.
+#version 460
+#include "pass.glsl"
+#include "light_target.glsl"
+#include "trace/trace.glsl"
+
+struct Path {
+    Ray ray;
+    LightReservoir kept;
+    vec3 unshadowed, radiance;
+};
+
+World scene = world();
+
+uint pathItems() { return 1; }
+World pathWorld(uint item) { return scene; }
+
+uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + 1); }
+
+// Neighbour i of the pixel; the pixel itself where there is none.
+ivec2 neighbourOf(World w, ivec2 pixel, uint i) {
+    vec2 u = random2(decisions(pixel), i, RANDOM_FREE);
+    float r = params.radius * sqrt(u.x), angle = TWO_PI * u.y;
+    ivec2 q = pixel + ivec2(round(r * vec2(cos(angle), sin(angle))));
+    if (!inside(q) || any(lessThan(q, ivec2(0)))) return pixel;
+    return similarViews(pixelView(w, hits(pixelIndex(pixel))), pixelView(w, hits(pixelIndex(q))), params.normal, params.depth) ? q : pixel;
+}
+
+LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {
+    LightReservoir own = merged(pixelIndex(pixel)), kept = own;
+    float sum = 0;
+    for (uint i = 0; i < uint(params.neighbours); ++i) {
+        ivec2 q = neighbourOf(w, pixel, i);
+        if (q != pixel) sum += merged(pixelIndex(q)).M;
+    }
+    PairwiseMis pairs = defensivePairwiseMis(own.M, sum);
+    float m = pairs.start;
+    Ris ris = risStart();
+    for (uint i = 0; i < uint(params.neighbours); ++i) {
+        ivec2 q = neighbourOf(w, pixel, i);
+        if (q == pixel) continue;
+        LightReservoir other = merged(pixelIndex(q));
+        float here = targetAt(w, l, other), there = targetAt(w, litSurface(w, hits(pixelIndex(q))), own);
+        float weight = resamplingWeight(neighbourMis(pairs, other.M, here, other.pHat), here, other.W, 1);
+        m += canonicalMis(pairs, other.M, own.pHat, there);
+        if (risAdd(ris, weight, random1(decisions(pixel), i, RANDOM_FREE + 1))) {
+            kept = other;
+            kept.pHat = here;
+        }
+    }
+    if (risAdd(ris, resamplingWeight(m, own.pHat, own.W, 1), random1(decisions(pixel), uint(params.neighbours), RANDOM_FREE + 1))) kept = own;
+    kept.W = contributionWeight(ris, kept.pHat);
+    kept.M = own.M + sum;
+    return kept;
+}
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    PrimaryHit h = hits(pixelIndex(pixel));
+    LitSurface l = litSurface(w, h);
+    p.kept = merged(pixelIndex(pixel));
+    p.unshadowed = vec3(0);
+    p.radiance = mirrored(pixel).rgb;
+    if (l.sky) {
+        p.radiance += environmentRadiance(w, cameraRay(w, h.film, h.lens).direction);
+        return false;
+    }
+    p.radiance += emittedRadiance(w, l.s);
+    p.kept = reuseNeighbours(w, pixel, l);
+    if (p.kept.W <= 0) return false;
+    LightSample light = lightSampleAt(w, LightPoint(p.kept.light, p.kept.uv), l.s.position);
+    p.unshadowed = arriving(l, light) * p.kept.W;
+    p.ray = shadowRay(w, l.s, light);
+    return true;
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
+    anyHit = true;
+    purpose = RAYS_NEE;
+    return p.ray;
+}
+
+bool pathStep(inout Path p, World w, Hit hit) {
+    if (hit.primitive == NONE) p.radiance += p.unshadowed;
+    return false;
+}
+
+void pathEnd(Path p, World w, ivec2 pixel) {
+    storeReservoirs(pixelIndex(pixel), p.kept);
+    storeColor(pixel, vec4(p.radiance, 1));
+}
+
+#include "trace/driver.glsl"
