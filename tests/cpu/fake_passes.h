@@ -85,6 +85,18 @@ struct Mix final : Pass {
     In<Image>  b{this, "b", "second"};
     Out<Image> sum{this, "sum", "both", Format::rgba16f};
 };
+struct Sharpen final : Pass {
+    In<Image>   color{this, "color", "what comes in"};
+    Out<Image>  colorOut{this, "color", "the same, sharper", Format::rgba16f};
+    PassThrough bypass{this, color, colorOut};
+};
+struct AgreeOn final : Pass {
+    Out<Ray> agreed{this, "agreed", "a struct of its own"};
+};
+struct Follow final : Pass {
+    In<Ray>    agreed{this, "agreed", "what others agreed on"};
+    Out<Image> image{this, "image", "made by it", Format::rgba16f};
+};
 struct BadNames final : Pass {
     In<Image>  input{this, "input", "a reserved word"};
     Out<Image> pixel{this, "pixel", "a name of pass.glsl", Format::rgba16f, {.like = "nobody"}};
@@ -111,6 +123,9 @@ inline void addTo(PluginLibraries& libraries) {
     libraries.addBuiltIn("tone_map", plugin<ToneMap>("ToneMap"));
     libraries.addBuiltIn("motion", plugin<Motion>("Motion"));
     libraries.addBuiltIn("mix", plugin<Mix>("Mix"));
+    libraries.addBuiltIn("sharpen", plugin<Sharpen>("Sharpen"));
+    libraries.addBuiltIn("agree_on", plugin<AgreeOn>("AgreeOn"));
+    libraries.addBuiltIn("follow", plugin<Follow>("Follow"));
     libraries.addBuiltIn("bad_names", plugin<BadNames>("BadNames"));
 }
 

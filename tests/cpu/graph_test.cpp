@@ -81,6 +81,31 @@ TEST(Graph, BindsWorldsToTheLastProducerThatDoesNotDependOnTheConsumer) {
     EXPECT_EQ(inputOf(prev, "m", "other"), "unwired");  // optional inputs are left alone
 }
 
+TEST(Graph, AnInputAndAnOutputMayShareTheirName) {
+    fake::Workshop workshop;
+    const char* passes = R"("r": {"type": "render"}, "s": {"type": "sharpen", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "s.color"}})";
+    const Graph g = workshop.build(passes, "s.color");
+    EXPECT_EQ(inputOf(g, "s", "color"), "r.color");
+    EXPECT_EQ(g.show, (Source{g.find("s"), 1}));
+    EXPECT_EQ(inputOf(g, "t", "color"), "s.color");
+}
+
+TEST(Graph, BindsAStructThatOnlyOnePassMakes) {
+    fake::Workshop workshop;
+    EXPECT_EQ(inputOf(workshop.build(R"("a": {"type": "agree_on"}, "f": {"type": "follow"})", "f"), "f", "agreed"), "a.agreed");
+    const auto message = [&](const std::string& passes) {
+        try {
+            workshop.build(passes, "f");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    const std::string two = message(R"("a": {"type": "agree_on"}, "b": {"type": "agree_on"}, "f": {"type": "follow"})");
+    EXPECT_NE(two.find("is not wired; made by: a.agreed, b.agreed"), std::string::npos) << two;
+    EXPECT_NE(message(R"("f": {"type": "follow"})").find("no pass of the graph makes one"), std::string::npos);
+}
+
 TEST(Graph, ASwitchedOffPassHandsItsInputThrough) {
     fake::Workshop workshop;
     const char* passes = R"("lod": {"type": "lod_select", "off": true}, "r": {"type": "render"},

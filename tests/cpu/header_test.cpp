@@ -119,6 +119,26 @@ TEST(Header, CompilesForEveryFormatAndBinding) {
     EXPECT_FALSE(compile(pass, bindings(pass, false, Format::rgba16f), shader, {{"CHECK_BOUNDS", "1"}}).words.empty());
 }
 
+struct Changed final : Pass {
+    In<Image>         color{this, "color", "before"};
+    In<Buffer<float>> list{this, "list", "before"};
+    Out<Image>        colorOut{this, "color", "after", Format::rgba32f};
+    Out<Buffer<float>> listOut{this, "list", "after", Count::perPixel()};
+};
+
+TEST(Header, AnOutputThatSharesItsNameIsReadAsMade) {
+    const std::string text = R"(#version 460
+#include "pass.glsl"
+void main() {
+    if (skip()) return;
+    storeColor(pixel(), color(pixel()) + madeColor(pixel()) + vec4(colorSize(), madeColorSize()));
+    storeList(0u, list(0u) + madeList(0u) + float(listCount() + madeListCount()));
+}
+)";
+    const Changed pass;
+    EXPECT_FALSE(compile(pass, bindings(pass, true, Format::rgba16f), text).words.empty());
+}
+
 TEST(Header, ADriverOwnsTheLocalSize) {
     const Everything pass;
     const std::string driven = "#version 460\n#include \"pass.glsl\"\nlayout(local_size_x = 32) in;\nvoid main() { if (warming()) return; storeH(ivec2(0), 1u); }\n";
@@ -130,7 +150,7 @@ TEST(Header, TheBlockLiesWhereTheShaderLooks) {
     const BlockLayout layout = blockLayout(pass);
     const auto offsets = structOffsets(compile(pass, bindings(pass, true, Format::rgba32f), shader));
     EXPECT_TRUE(contains(offsets, {offsetof(FrameInfo, index), offsetof(FrameInfo, seed), offsetof(FrameInfo, size), offsetof(FrameInfo, historyValid),
-                                   offsetof(FrameInfo, validate), offsetof(FrameInfo, salt), offsetof(FrameInfo, ledger), offsetof(FrameInfo, faults)}));
+                                   offsetof(FrameInfo, validate), offsetof(FrameInfo, salt), offsetof(FrameInfo, pad), offsetof(FrameInfo, ledger), offsetof(FrameInfo, faults)}));
     EXPECT_TRUE(contains(offsets, {offsetof(PortRecord, address), offsetof(PortRecord, size)}));
     EXPECT_TRUE(contains(offsets, {offsetof(Push, block), offsetof(Push, tileCounter), offsetof(Push, base), offsetof(Push, extent), offsetof(Push, arguments),
                                    offsetof(Push, warm), offsetof(Push, pad)}));
@@ -198,7 +218,7 @@ TEST(Header, RefusesNamesThatShadersCannotUse) {
         In<Image>    color{this, "color", ""};
         In<Image>    colorSize{this, "colorSize", ""};
         In<Image>    sample{this, "sample", ""};
-        Out<Image>   again{this, "color", "", Format::r16f};
+        Out<Buffer<float>> again{this, "color", "", Count::perPixel()};
         Out<Image>   snake{this, "snake_case", "", Format::r16f};
         Param<float> pixel{this, "pixel", 0.0f, {0, 1}, ""};
     } clash;
