@@ -13,7 +13,8 @@ double BlockGrid::share(std::size_t block) const {
 
 void BlockMeans::add(const ImageData& image) {
     if (values.empty() && grid.width == 0) grid = {image.width, image.height};
-    if (image.width != grid.width || image.height != grid.height || image.channels < 3) throw Error("the runs of an ensemble differ in size");
+    if (image.width != grid.width || image.height != grid.height || image.channels < 3)
+        throw Error("the runs of an ensemble differ in size");
     const std::size_t first = values.size();
     values.resize(first + 3 * grid.count());
     for (int y = 0; y < image.height; ++y)

@@ -28,7 +28,9 @@ struct BlockMeans {
     std::vector<double> values;  ///< run by run, in each block by block (rows from the top), in each the three colours
 
     std::size_t runs() const { return grid.count() == 0 ? 0 : values.size() / (3 * grid.count()); }
-    double at(std::size_t run, std::size_t block, int colour) const { return values[(run * grid.count() + block) * 3 + std::size_t(colour)]; }
+    double at(std::size_t run, std::size_t block, int colour) const {
+        return values[(run * grid.count() + block) * 3 + std::size_t(colour)];
+    }
     /// One more run, of an image with at least three channels. Error when it has another size.
     void add(const ImageData& image);
     void append(const BlockMeans& more);

@@ -245,8 +245,8 @@ std::string drawIntervals(const std::string& title, const std::string& xLabel, c
     for (const Interval& interval : intervals)
         for (const double value : {interval.value - interval.halfWidth, interval.value + interval.halfWidth}) x.include(value);
     x.finish();
-    std::string svg = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#e8f3ee\"/>\n", x.at(-band), top,
-                                  x.at(band) - x.at(-band), bottom - top);
+    std::string svg = fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#e8f3ee\"/>\n", x.at(-band),
+                                  top, x.at(band) - x.at(-band), bottom - top);
     svg += verticalGrid(x, bottom, xLabel);
     svg += fmt::format("<line x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\" stroke=\"#444\"/>\n", x.at(0), top, bottom);
     for (std::size_t i = 0; i < intervals.size(); ++i) {
@@ -256,7 +256,8 @@ std::string drawIntervals(const std::string& title, const std::string& xLabel, c
                            escapeHtml(interval.name));
         if (!std::isfinite(interval.value)) continue;
         svg += fmt::format(
-            "<g stroke=\"{0}\" stroke-width=\"1.8\"><line x1=\"{1:.1f}\" y1=\"{3:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\"/><circle cx=\"{4:.1f}\" "
+            "<g stroke=\"{0}\" stroke-width=\"1.8\"><line x1=\"{1:.1f}\" y1=\"{3:.1f}\" x2=\"{2:.1f}\" y2=\"{3:.1f}\"/><circle "
+            "cx=\"{4:.1f}\" "
             "cy=\"{3:.1f}\" r=\"3.4\" fill=\"{0}\"><title>{5}</title></circle></g>\n",
             interval.good ? colors[2] : colors[1], x.at(interval.value - interval.halfWidth), x.at(interval.value + interval.halfWidth), y,
             x.at(interval.value), escapeHtml(interval.about));
@@ -267,13 +268,14 @@ std::string drawIntervals(const std::string& title, const std::string& xLabel, c
 std::string drawGrid(const std::string& title, int columns, const std::vector<double>& values, double top) {
     constexpr double cell = 22;
     const auto rows = (values.size() + std::size_t(columns) - 1) / std::size_t(columns);
-    std::string svg = fmt::format("<figure><svg viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\">\n", cell * columns,
-                                  cell * double(rows));
+    std::string svg = fmt::format("<figure><svg viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\">\n",
+                                  cell * columns, cell * double(rows));
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double share = std::clamp(values[i] / top, -1.0, 1.0);
         const int fade = std::isfinite(values[i]) ? int(255 * (1 - std::abs(share))) : 0;
         svg += fmt::format(
-            "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"rgb({},{},{})\" stroke=\"#ccc\"><title>({}, {}): {:+.2f}"
+            "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"rgb({},{},{})\" stroke=\"#ccc\"><title>({}, {}): "
+            "{:+.2f}"
             "</title></rect>\n",
             cell * double(i % std::size_t(columns)), cell * double(i / std::size_t(columns)), cell, cell, share > 0 ? 255 : fade, fade,
             share < 0 ? 255 : fade, i % std::size_t(columns), i / std::size_t(columns), values[i]);

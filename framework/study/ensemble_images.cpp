@@ -39,7 +39,8 @@ EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>
     for (const std::string& chunk : chunks) {
         const ExrFile file = readExrFile(fileOf(folder, chunk, offset));
         const auto runs = file.attributes.find("runs");
-        if (file.image.channels != 4 || runs == file.attributes.end()) throw Error({fileOf(folder, chunk, offset).string()}, "is no image of a chunk of runs");
+        if (file.image.channels != 4 || runs == file.attributes.end())
+            throw Error({fileOf(folder, chunk, offset).string()}, "is no image of a chunk of runs");
         const double count = std::stod(runs->second);
         sum.resize(file.image.values.size());
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += count * double(file.image.values[i]);
@@ -53,7 +54,8 @@ EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>
 ImageData sigmaMap(const EnsembleImage& runs, const EnsembleImage& reference) {
     ImageData map = makeImage(runs.image.width, runs.image.height, 1);
     for (std::size_t p = 0; p < map.pixelCount(); ++p) {
-        const double variance = varianceOf(runs, p) + varianceOf(reference, p), difference = luminanceOf(runs.image, p) - luminanceOf(reference.image, p);
+        const double variance = varianceOf(runs, p) + varianceOf(reference, p),
+                     difference = luminanceOf(runs.image, p) - luminanceOf(reference.image, p);
         map.values[p] = difference == 0 ? 0.0f : float(difference / std::sqrt(variance));
     }
     return map;
@@ -64,8 +66,10 @@ ImageData divergingMap(const ImageData& values, double top) {
     for (std::size_t p = 0; p < map.pixelCount(); ++p) {
         const float z = values.values[p * std::size_t(values.channels)], fade = 1 - std::min(1.0f, std::abs(z) / float(top));
         float* c = &map.values[3 * p];
-        if (std::isnan(z)) c[1] = 1;
-        else c[0] = z > 0 ? 1 : fade, c[1] = fade, c[2] = z < 0 ? 1 : fade;
+        if (std::isnan(z))
+            c[1] = 1;
+        else
+            c[0] = z > 0 ? 1 : fade, c[1] = fade, c[2] = z < 0 ? 1 : fade;
     }
     return map;
 }

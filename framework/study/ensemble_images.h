@@ -20,8 +20,8 @@ struct EnsembleImage {
 /// Of all the chunks. Error when one is not in the folder.
 EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>& chunks, int offset);
 
-/// By how many standard deviations the luminance of each pixel's mean lies above the reference's; one channel. To look at, not to judge by: pixels have
-/// heavy tails.
+/// By how many standard deviations the luminance of each pixel's mean lies above the reference's; one channel. To look at, not to judge by:
+/// pixels have heavy tails.
 ImageData sigmaMap(const EnsembleImage& runs, const EnsembleImage& reference);
 
 /// Linear RGB of values: white at 0, red at +top and more, blue at -top and less, green where the value is no number.

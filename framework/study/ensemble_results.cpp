@@ -81,7 +81,8 @@ OrderedJson toJson(const EnsembleRow& row) {
 }
 
 EnsembleRow ensembleRowOf(const OrderedJson& json) {
-    EnsembleRow row{.run = json.at("run"), .scene = json.at("scene"), .knobs = json.at("knobs"), .offset = json.at("frame"), .first = json.at("first")};
+    EnsembleRow row{
+        .run = json.at("run"), .scene = json.at("scene"), .knobs = json.at("knobs"), .offset = json.at("frame"), .first = json.at("first")};
     if (!json.at("technique").is_null()) row.technique = json.at("technique");
     row.means.grid = {json.at("size").at(0), json.at("size").at(1)};
     row.milliseconds = json.at("ms");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace lodestir {
 namespace {
@@ -16,13 +17,16 @@ std::string keyOf(const EnsembleChunk& chunk) {
     return fmt::format("{} {} {}", chunk.scene, chunk.technique ? int(*chunk.technique) : -1, knobJson(chunk.knobs).dump());
 }
 
-/// Whether a frame depends on those before it.
-bool hasHistory(const Graph& graph) {
-    return std::ranges::any_of(graph.nodes, [](const GraphNode& node) {
-        if (node.off) return false;
-        return std::ranges::any_of(node.inputs, [](const auto& input) { return input && input->prev; }) ||
-               std::ranges::any_of(node.pass->ports, [](const Port* port) { return port->role == Port::Role::state; });
-    });
+/// Whether a node's outputs depend on earlier frames; `seen`: nodes that were asked already.
+bool hasHistory(const Graph& graph, int node, std::set<int>& seen) {
+    if (!seen.insert(node).second) return false;
+    const GraphNode& n = graph.nodes[std::size_t(node)];
+    return std::ranges::any_of(n.pass->ports, [](const Port* port) { return port->role == Port::Role::state; }) ||
+           std::ranges::any_of(n.inputs, [&](const auto& input) { return input && (input->prev || hasHistory(graph, input->node, seen)); });
+}
+bool hasHistory(const StagedGraph& staged) {
+    std::set<int> seen;
+    return hasHistory(staged.graph, staged.port.node, seen);
 }
 
 /// Sums over runs.
@@ -115,7 +119,7 @@ EnsembleStage::Series& EnsembleStage::seriesOf(const EnsembleChunk& chunk) {
 
 std::vector<ChunkFrame> EnsembleStage::render(const EnsembleChunk& chunk) {
     auto& [_, staged, runner] = seriesOf(chunk);
-    const bool freshStarts = !chunk.technique || !hasHistory(staged.graph);  // each frame alone, without warm-up
+    const bool freshStarts = !chunk.technique || !hasHistory(staged);  // each frame alone, without warm-up
     std::vector<FrameSum> sums(study_.measure.size());
     const auto run = [&](std::uint32_t seed, int from, int to) {
         staged.graph.description.seed = seed;

@@ -34,7 +34,7 @@ int batchesOf(const Study& study);
 /// A measured frame over the runs of a chunk.
 struct ChunkFrame {
     BlockMeans means;
-    ImageData image;  ///< over runs: the means of red, green and blue, and of the squared luminance
+    ImageData image;                    ///< over runs: the means of red, green and blue, and of the squared luminance
     double milliseconds = 0, rays = 0;  ///< of the frame, means over runs
 };
 

@@ -44,7 +44,8 @@ std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study&
 /// The mean of the runs, and a map of where it isn't the reference's; the reference's own mean beside them.
 void writeImages(const Study& study, const EnsembleCell& cell, const Path& chunks, const Path& folder) {
     constexpr double top = 5;  // sigmas of full colour
-    const EnsembleImage runs = joinChunkImages(chunks, cell.chunks, cell.offset), reference = joinChunkImages(chunks, cell.referenceChunks, cell.offset);
+    const EnsembleImage runs = joinChunkImages(chunks, cell.chunks, cell.offset),
+                        reference = joinChunkImages(chunks, cell.referenceChunks, cell.offset);
     const std::string scene = study.scenes[cell.scene].name;
     const std::string name = fileName(fmt::format("{}.{}.{}", scene, labelOf(study, cell), cell.offset));
     writeExr(folder / (name + ".exr"), firstChannels(runs.image, 3));

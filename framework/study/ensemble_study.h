@@ -5,8 +5,8 @@
 
 namespace lodestir {
 
-/// Measures the chunks of a shard that `out` doesn't hold yet, adding rows to `file`, and judges all that is there. Beside the results it writes
-/// chunks/ (images of chunks, for what comes later), images/ (means and maps of sigmas) and report.html.
+/// Measures the chunks of a shard that `out` doesn't hold yet, adding rows to `file`, and judges all that is there. Beside the results it
+/// writes chunks/ (images of chunks, for what comes later), images/ (means and maps of sigmas) and report.html.
 EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard);
 
 }  // namespace lodestir

@@ -20,7 +20,8 @@ double incompleteBeta(double x, double a, double b) {
     d = 1 / (std::abs(d) < tiny ? tiny : d);
     double fraction = d;
     for (int m = 1; m < 500; ++m) {
-        const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)), odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+        const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
+                     odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
         double change = 1;
         for (const double term : {even, odd}) {
             d = 1 + term * d;
@@ -82,7 +83,8 @@ MeanTest compareMeans(const Moments& x, const Moments& y, double resolution) {
     const double spread = vx * vx / (x.count - 1) + vy * vy / (y.count - 1);
     test.freedom = std::min(1e6, spread > 0 ? variance * variance / spread : 1e6);
     const double t = test.difference / test.error;
-    const double third = x.cubes / (x.count * x.count * x.count) - y.cubes / (y.count * y.count * y.count), a = third / (variance * test.error);
+    const double third = x.cubes / (x.count * x.count * x.count) - y.cubes / (y.count * y.count * y.count),
+                 a = third / (variance * test.error);
     test.t = t + a / 6 + a * t * t / 3 + a * a * t * t * t / 27;
     test.p = studentTail(test.t, test.freedom);
     return test;

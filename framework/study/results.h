@@ -40,8 +40,8 @@ nlohmann::ordered_json toJson(const ResultRow& row);
 /// nlohmann's exceptions where a member is missing or of another kind.
 ResultRow rowOf(const nlohmann::ordered_json& json);
 
-/// Hands on the value of each whole line of all results*.jsonl files of a folder, files by name. Error with file and line where `take` throws one of
-/// nlohmann's exceptions.
+/// Hands on the value of each whole line of all results*.jsonl files of a folder, files by name. Error with file and line where `take`
+/// throws one of nlohmann's exceptions.
 void readLines(const Path& folder, const std::function<void(const nlohmann::ordered_json& line)>& take);
 /// The rows of all results*.jsonl files of a folder: each shard writes its own. A last line that was cut is passed over; of two rows of the
 /// same run and frame the later one counts. Error with file and line where a whole line is none of ours.

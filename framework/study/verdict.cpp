@@ -13,7 +13,8 @@
 namespace lodestir {
 namespace {
 
-/// Standard deviation, as a share of the mean, that rounding is taken for: 16-bit storage is off by up to 4.9e-4 and sums in 32 bits by less.
+/// Standard deviation, as a share of the mean, that rounding is taken for: 16-bit storage is off by up to 4.9e-4 and sums in 32 bits by
+/// less.
 constexpr double rounding = 1e-4;
 constexpr std::array<double, 2> faultSizes{0.01, 0.03};
 constexpr std::size_t faultTrials = 200, nullTrials = 500;
@@ -108,8 +109,10 @@ private:
         std::vector<Moments> x(runs_.count()), y(runs_.count());
         for (std::size_t i = 0; i < x.size(); ++i) {
             double scale = 1;
-            if (!fault.block) scale = 1 + size;
-            else if (i >= 4 && (i - 4) / 3 == block) scale = 1 + size * truth_[0].mean / (grid_.share(block) * luminance(block));
+            if (!fault.block)
+                scale = 1 + size;
+            else if (i >= 4 && (i - 4) / 3 == block)
+                scale = 1 + size * truth_[0].mean / (grid_.share(block) * luminance(block));
             x[i] = drawn(runs_.of(i), runs, scale);
             y[i] = drawn(reference_.of(i), batches, 1);
         }
@@ -157,8 +160,9 @@ void conclude(EnsembleResult& result, const VerdictOptions& options) {
     result.verdict = Verdict::inconclusive;
     if (!(result.halfWidth <= options.halfWidth)) {
         const double more = result.halfWidth / options.halfWidth;
-        result.reason = fmt::format("the energy is known to +-{:.2g} % only, {:.2g} % are asked for: about {:.2g} times as many runs would do",
-                                    100 * result.halfWidth, 100 * options.halfWidth, more * more);
+        result.reason =
+            fmt::format("the energy is known to +-{:.2g} % only, {:.2g} % are asked for: about {:.2g} times as many runs would do",
+                        100 * result.halfWidth, 100 * options.halfWidth, more * more);
         return;
     }
     for (const PlantedFault& fault : result.faults)

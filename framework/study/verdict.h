@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The judgement over an ensemble: do independent runs of a technique have the mean that the reference has, and would a fault have been seen?
+// The judgement over an ensemble: do independent runs of a technique have the mean that the reference has, and would a fault have been
+// seen?
 #pragma once
 #include <framework/study/block_means.h>
 #include <framework/study/moments.h>
@@ -20,8 +21,8 @@ struct VerdictOptions {
 
 /// Both tests over one pair of ensembles.
 struct EnsembleTests {
-    std::array<MeanTest, 4> energy;  ///< of energyNames
-    std::vector<MeanTest> blocks;    ///< block by block, in each the three colours
+    std::array<MeanTest, 4> energy;       ///< of energyNames
+    std::vector<MeanTest> blocks;         ///< block by block, in each the three colours
     int worstEnergy = 0, worstBlock = 0;  ///< of the smallest p
     double energyP = 1, blockP = 1;       ///< of those, times their number (Bonferroni), at most 1
 };
@@ -29,7 +30,7 @@ struct EnsembleTests {
 /// A fault put on purpose into the measured runs, and how often the tests see it.
 struct PlantedFault {
     double size = 0;      ///< share of the energy that appears or is lost
-    bool block = false;   ///< in one block only (one of those that hold at least the mean energy), which the tests of blocks alone have to see
+    bool block = false;   ///< in one block only, one that holds at least the mean energy; the tests of blocks alone have to see it
     double caught = 0;    ///< share of the trials
     bool needed = false;  ///< the verdict depends on it
 };
@@ -50,10 +51,10 @@ struct EnsembleResult {
 /// `runs` against `reference`, each by itself an ensemble of independent runs, at least two.
 EnsembleTests testEnsemble(const BlockMeans& runs, const BlockMeans& reference);
 
-/// The tests, their power and the verdict. Power is found by bootstrap: trials draw as many runs as there are, with replacement, from runs that were
-/// shifted to the reference's mean, and put a fault into them. The same runs always give the same result.
-/// biased: a test rejects. inconclusive: none does, but the interval is too wide or faults that such an interval promises to show (of three
-/// half-widths and more) are caught less than 95 times in 100. Else unbiased.
+/// The tests, their power and the verdict. Power is found by bootstrap: trials draw as many runs as there are, with replacement, from runs
+/// that were shifted to the reference's mean, and put a fault into them. The same runs always give the same result. biased: a test rejects.
+/// inconclusive: none does, but the interval is too wide or faults that such an interval promises to show (of three half-widths and more)
+/// are caught less than 95 times in 100. Else unbiased.
 EnsembleResult judgeEnsemble(const BlockMeans& runs, const BlockMeans& reference, const VerdictOptions& options);
 
 }  // namespace lodestir

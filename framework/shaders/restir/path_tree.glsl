@@ -30,10 +30,15 @@ struct PathTree {
     vec3 throughput;    // f / p of the sampled lobes so far
     float survival;     // chance that roulette let the spine live so far
     vec3 from;          // x_{j-1}
+    Bsdf bsdf;          // there
+    vec3 wo;            // there
+    vec3 incoming;      // throughput before it scattered
     float before;       // roughness of the lobe sampled there
     uint lobe;          // that lobe
     float lobePdf;      // its density of the direction to x_j, its chance included
     float pdf;          // of all lobes together; 0: camera or delta lobe
+    vec3 connected;     // throughput and pdf of x_{j-1} -> x_j if that is a connection: in the direction of the grid point
+    float connectedPdf;
 
     uint k;             // reconnection vertex of paths that go on, 0: none yet
     Reservoir spine;    // its rc... and G
@@ -67,7 +72,8 @@ void treeStart(inout PathTree p, World w, uvec2 seed, vec2 film, vec2 lens) {
     p.ends = false;
     p.throughput = vec3(1.0);
     p.survival = 1.0;
-    p.before = 0.0;
+    p.incoming = p.connected = vec3(1.0);
+    p.before = p.connectedPdf = 0.0;
     p.lobe = 0u;
     p.lobePdf = 0.0;
     p.pdf = 0.0;
@@ -105,13 +111,19 @@ void takeOffer(inout PathTree p, uvec2 decisions) {
 /// Light that the spine ran into at x_j: an emitter's surface, or the environment (hit.primitive NONE).
 void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 direction, float distance, vec3 radiance, float pdfLight) {
     bool environment = hit.primitive == NONE;
-    float share = emissionShare(rules, p.vertex - 1u, p.pdf, pdfLight);
+    vec3 throughput = p.throughput;
+    float pdf = p.pdf;
     PathShape shape = PathShape(p.vertex, p.k, false, environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE, p.lobeBefore, p.lobeAt);
     Reservoir path = p.spine;
     float density = p.density;
     vec2 uv = p.rcUv;
     ConnectionCriteria criteria = criteriaOf(rules);
-    bool connectable = p.vertex >= 2u && (environment ? environmentConnectable(criteria, p.before) : emitterConnectable(criteria, p.before, distance));
+    bool connectable = p.k == 0u && p.vertex >= 2u && (environment ? environmentConnectable(criteria, p.before) : emitterConnectable(criteria, p.before, distance));
+    if (connectable && !environment) {
+        throughput = p.connected;
+        pdf = p.connectedPdf;
+    }
+    float share = emissionShare(rules, p.vertex - 1u, pdf, pdfLight);
     if (p.k > 0u) {
         // Directly behind x_k the share depends on where the path came from, and is left to those who know.
         bool last = p.k + 1u == p.vertex;
@@ -124,11 +136,11 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
         path.rcPrimitive = hit.primitive;
         path.rcBarycentrics = packBarycentrics(hit.barycentrics);
         path.rcDirection = packNormal(direction);
-        path.G = environment ? 1.0 : geometryTerm(p.from, s.position, s.normal);
+        path.G = environment ? 1.0 : connectionTerm(p.from, s);
         density = p.lobePdf;
         if (!environment) uv = s.uv;
     }
-    offer(p, path, shape, uv, p.throughput * radiance * share, density, 1.0);
+    offer(p, path, shape, uv, throughput * radiance * share, density, 1.0);
 }
 
 /// A light sample at x_j (next-event estimation). False: no light.
@@ -156,6 +168,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     PathShape shape = PathShape(p.vertex + 1u, p.k, true, kind, p.lobeBefore, p.lobeAt);
     Reservoir path = p.spine;
     float density = p.density, pdfLight = light.delta ? 1.0 : light.pdf, roughness = roughestLobe(b, wo);
+    vec3 throughput = p.throughput;
     vec2 uv = p.rcUv;
     if (p.k > 0u) {
         path.radiance = p.suffix * chosen;
@@ -168,18 +181,19 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         path.rcDirection = packNormal(light.direction);
         path.radiance = light.radianceOverPdf * pdfLight;
         path.lightPdf = light.pdf;
-        path.G = geometryTerm(p.from, s.position, s.normal);
+        path.G = connectionTerm(p.from, s);
         density = p.lobePdf * pdfLight;
+        throughput = p.connected;
         uv = s.uv;
     } else if (lightConnectable(rules, p.vertex, roughness, light.distance)) {
         shape.k = p.vertex + 1u;
         path.rcInstance = w.lights.at[light.point.light].instance;
         path.rcPrimitive = light.delta ? light.point.light : w.lights.at[light.point.light].primitive;
         path.rcBarycentrics = kind == PATH_LIGHT_ENVIRONMENT ? packUnorm2x16(light.point.uv) : packBarycentrics(light.point.uv);
-        path.G = kind == PATH_LIGHT_TRIANGLE ? light.cosine / square(light.distance) : 1.0;
+        path.G = connectionTerm(w, light);
         density = pdfLight;
     }
-    offer(p, path, shape, uv, p.throughput * chosen, density, warp);
+    offer(p, path, shape, uv, throughput * chosen, density, warp);
     p.ray = shadowRay(w, s, light);
     return true;
 }
@@ -195,7 +209,6 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
     BsdfSample next = d.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d) : lobeSample(d, bsdfValue(b, d.lobe, wo, d.wi));
     if (next.pdf == 0.0 || next.lobeWeight == vec3(0.0)) return false;
     float roughness = lobeRoughness(b, next.lobe);
-    p.throughput *= next.lobeWeight;
     if (p.k > 0u) {
         p.suffix *= next.lobeWeight;
     } else if (p.vertex >= 2u && surfaceConnectable(criteriaOf(rules), p.before, roughness, distance)) {
@@ -208,8 +221,13 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
         p.spine.rcPrimitive = s.primitive;
         p.spine.rcBarycentrics = packBarycentrics(s.barycentrics);
         p.spine.rcDirection = packNormal(next.wi);
-        p.spine.G = geometryTerm(p.from, s.position, s.normal);
+        p.spine.G = connectionTerm(p.from, s);
+        p.throughput = p.connected;
     }
+    p.incoming = p.throughput;
+    p.throughput *= next.lobeWeight;
+    p.bsdf = b;
+    p.wo = wo;
     p.from = s.position;
     p.before = roughness;
     p.lobe = next.lobe;
@@ -236,12 +254,20 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
         radiance = environmentRadiance(w, direction);
         pdfLight = environmentPdf(w, direction);
     } else {
-        if (j >= 2u) hit.barycentrics = onGrid(hit.barycentrics);
+        if (j >= 2u) {
+            hit.barycentrics = onGrid(hit.barycentrics);
+            direction = arrival(w, hit, p.from, direction);
+        }
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - p.from);
         vec3 left = segmentTransmittance(w, s, distance);
         p.throughput *= left;
-        p.suffix *= left;
+        if (p.k > 0u) p.suffix *= left;
+        if (p.k == 0u && j >= 2u && emitterConnectable(criteriaOf(rules), p.before, distance)) {
+            BsdfValue value = bsdfValue(p.bsdf, p.lobe, p.wo, direction);
+            p.connected = p.incoming * value.one / p.lobePdf * left;
+            p.connectedPdf = value.pdf;
+        }
         radiance = emittedRadiance(w, s);
         pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, distance);
     }

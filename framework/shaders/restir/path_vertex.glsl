@@ -3,7 +3,7 @@
 //
 // From x_2 on, vertices lie on a grid of 16 bits per barycentric, and directions that are not of delta lobes on one of 32 bits: the path is
 // exactly what a Reservoir stores of it, and a shift back finds the numbers that it started from. The grids are so fine that sums over them
-// stand for the integrals.
+// stand for the integrals. What leaves x_{j-1} in the sampled direction arrives at x_j in the direction of the grid point.
 #include "base/random.glsl"
 #include "bsdf/material.glsl"
 #include "light/light.glsl"
@@ -14,6 +14,18 @@
 
 vec2 onGrid(vec2 barycentrics) { return unpackBarycentrics(packBarycentrics(barycentrics)); }
 vec3 onGrid(vec3 direction) { return unpackNormal(packNormal(direction)); }
+
+/// The direction in which x_j, j >= 2, is reached from x_{j-1}: that of the grid point.
+vec3 arrival(World w, Hit hit, vec3 from, vec3 direction) {
+    return safeNormalize(positionOn(w, hit.instance, hit.primitive, hit.barycentrics) - from, direction);
+}
+
+/// The geometry term of the Jacobian per barycentric area of x_k instead of per area: barycentrics are what a shift keeps, so that a triangle
+/// that grew from one frame to the next is accounted for.
+float connectionTerm(vec3 from, Surface s) { return geometryTerm(from, s.position, s.normal) * s.twiceArea; }
+
+/// The same for a light point; 1 where it has no surface. pmf / pdf is the solid angle per share of the triangle.
+float connectionTerm(World w, LightSample l) { return l.distance < FAR && !l.delta ? w.lights.at[l.point.light].pmf / l.pdf : 1.0; }
 
 /// A direction of the path and the lobe it came from, by the path's own numbers.
 BsdfDirection pathDirection(Bsdf b, vec3 wo, uvec2 seed, uint vertex) {

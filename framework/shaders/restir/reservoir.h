@@ -20,7 +20,7 @@ struct Reservoir {
     uint rcBarycentrics;  // unorm16 x 2
     uint rcDirection;     // omega_k, octahedral (base/pack.glsl); where x_k is the environment, the direction to it
     vec3 radiance;        // what comes to x_k from omega_k, over the densities after x_k; where x_k is the light, what it sends
-    float G;              // geometry term x_{k-1} -> x_k of this path in this pixel; 1 for environment and punctual lights, and if k = 0
+    float G;              // geometry term x_{k-1} -> x_k per barycentric area of x_k; 1 for environment and punctual lights, and if k = 0
 };
 
 // Bits of Reservoir.shape.

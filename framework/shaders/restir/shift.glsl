@@ -117,7 +117,7 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
     reachLight(t, radiance, emissionShare(rules, t.vertex - 1u, t.pdf, pdfLight), pdfLight);
     if (!target) t.state = SHIFT_DONE;
     if (target && !environment) {
-        float G = geometryTerm(t.from, s.position, s.normal);
+        float G = connectionTerm(t.from, s);
         t.jacobian = reconnectionJacobian(G, t.path.G);
         t.path.G = G;
     }
@@ -144,6 +144,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     Surface s;
     float distance = FAR;
     if (hit.primitive != NONE) {
+        if (j >= 2u) direction = arrival(w, hit, t.from, direction);
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - t.from);
         t.throughput *= segmentTransmittance(w, s, distance);
@@ -225,8 +226,8 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
             if (lightConnectable(rules, j, roughness, light.distance) != stored) shiftFail(t);
         }
         reachLight(t, value.all * light.radianceOverPdf * (stored ? density : 1.0), share, 0.0);
-        if (stored && t.shape.light == PATH_LIGHT_TRIANGLE) {
-            float G = light.cosine / square(light.distance);
+        if (stored) {
+            float G = connectionTerm(w, light);
             t.jacobian *= reconnectionJacobian(G, t.path.G);
             t.path.G = G;
         }
@@ -235,7 +236,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         return false;
     }
     // x_k between y_{k-1} and what follows.
-    float G = geometryTerm(t.from, s.position, s.normal);
+    float G = connectionTerm(t.from, s);
     t.jacobian = reconnectionJacobian(G, t.path.G);
     t.path.G = G;
     if (towards == TOWARDS_LIGHT) {

@@ -10,6 +10,7 @@
 struct Surface {
     vec3 position;       // interpolated from the corners: origin + t * direction would carry the ray's length into the error
     vec3 normal;         // of the triangle, unit, towards the viewer
+    float twiceArea;     // of the triangle, world space
     vec3 shadingNormal;  // unit, towards the viewer; its mirror direction lies above the triangle
     vec2 uv;             // set 0
     vec2 barycentrics;
@@ -58,7 +59,8 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     s.instance = hit.instance;
     s.material = w.primitives.at[hit.primitive].material;
 
-    vec3 front = safeNormalize(placeNormal(placement, cross(point.edge1, point.edge2)) * mirror, view);
+    vec3 perpendicular = placeNormal(placement, cross(point.edge1, point.edge2)) * mirror, front = safeNormalize(perpendicular, view);
+    s.twiceArea = length(perpendicular);
     s.frontFace = dot(front, view) >= 0.0;
     s.normal = s.frontFace ? front : -front;
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// A tree of boxes around triangles on the CPU: the nearest surface point, and all triangles near a point.
+#pragma once
+#include <framework/core/api.h>
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace lodestir {
+
+/// Keeps a copy of the triangles' corners. Triangles in a plane of UVs are given as (u, v, 0).
+class LODESTIR_API TriangleTree {
+public:
+    TriangleTree(std::span<const glm::vec3> points, std::span<const glm::uvec3> triangles);
+
+    /// Distance from `p` to the nearest point of any triangle; infinite when there are none.
+    double distance(const glm::dvec3& p) const;
+
+    /// Calls visit(triangle) for each triangle whose box, grown by `margin`, holds `p`.
+    template <class Visit> void near(const glm::vec3& p, float margin, const Visit& visit) const {
+        std::uint32_t stack[64], depth = 0;
+        if (!nodes_.empty()) stack[depth++] = 0;
+        while (depth > 0) {
+            const Box& box = nodes_[stack[--depth]];
+            if (glm::any(glm::lessThan(p, box.low - margin)) || glm::any(glm::greaterThan(p, box.high + margin))) continue;
+            if (box.count == 0) {
+                stack[depth++] = box.first;
+                stack[depth++] = box.first + 1;
+            }
+            for (std::uint32_t i = box.first; i < box.first + box.count; ++i) visit(order_[i]);
+        }
+    }
+
+private:
+    struct Box {
+        glm::vec3 low{0}, high{0};
+        std::uint32_t first = 0, count = 0;  ///< triangles of a leaf; count 0: children `first` and `first` + 1
+    };
+    struct Corners {
+        glm::vec3 a, b, c;
+    };
+    void split(std::uint32_t node, std::span<const glm::vec3> centres);
+
+    std::vector<Box> nodes_;
+    std::vector<std::uint32_t> order_;
+    std::vector<Corners> corners_;  ///< in the tree's order
+};
+
+}  // namespace lodestir
