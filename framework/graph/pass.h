@@ -41,6 +41,7 @@ public:
     virtual glm::uvec2 sizeOf(const Port& port) const = 0;      ///< of an image, pixels
     virtual std::uint32_t countOf(const Port& port) const = 0;  ///< elements of a buffer
     virtual bool isBound(const Port& port) const = 0;
+    virtual std::span<const std::byte> valueOf(const Port& port) const = 0;  ///< the struct that a wired handle input holds
     /// Runs a shader of this pass's folder once for each element of `extent` (pixels, or {n, 1}). A shader that includes
     /// "trace/driver.glsl" is spread as its tracing body likes best. `arguments`: up to 4 words, argument(i) in the shader.
     /// Dispatches of one pass see what earlier ones wrote.

@@ -129,6 +129,13 @@ public:
         std::memcpy(staging_.back().mapped(), bytes.data(), bytes.size());
         s_.commands_.copy(staging_.back(), 0, memory.now(), 0, bytes.size());
     }
+    std::span<const std::byte> valueOf(const Port& port) const override {
+        const auto& source = s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))];
+        const int resource = source ? s_.plan_.resourceOf(source->node, source->port) : -1;
+        if (resource < 0) throw Error("port \"" + std::string(port.name) + "\" is not wired");
+        const PortMemory& memory = s_.memories_->at(std::size_t(resource));
+        return {(source->prev ? memory.last() : memory.now()).mapped(), memory.bytes};
+    }
     void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) override {
         PortMemory& memory = made(port);
         if (value.size() != memory.bytes) throw Error("port \"" + std::string(port.name) + "\" holds " + std::to_string(memory.bytes) + " bytes, given " + std::to_string(value.size()));

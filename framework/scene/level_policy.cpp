@@ -6,8 +6,12 @@
 namespace lodestir {
 
 std::vector<std::uint32_t> levelsAt(const Scene& scene, float frame) {
+    if (scene.lod.mode == LodMode::schedule) return scheduledLevels(scene, frame);
+    return std::vector<std::uint32_t>(scene.instances.size(), 0);
+}
+
+std::vector<std::uint32_t> scheduledLevels(const Scene& scene, float frame) {
     std::vector<std::uint32_t> levels(scene.instances.size(), 0);
-    if (scene.lod.mode != LodMode::schedule) return levels;
     std::vector<LodSwitch> switches = scene.lod.schedule;
     std::ranges::stable_sort(switches, {}, &LodSwitch::frame);
     for (const LodSwitch& s : switches) {

@@ -9,9 +9,12 @@
 
 namespace lodestir {
 
-/// Level of each instance at a frame. `finest`: 0; `schedule`: that of the last switch at or before the frame (0 before the first), at
-/// most the mesh's coarsest. The other modes need a camera and are a pass's business: they show the finest level.
+/// Level of each instance at a frame: `finest` 0, `schedule` as below. The other modes need a camera and are a pass's business: they show
+/// the finest level.
 LODESTIR_API std::vector<std::uint32_t> levelsAt(const Scene& scene, float frame);
+/// By the scene's schedule, whatever its mode: that of the last switch at or before the frame (0 before the first), at most the mesh's
+/// coarsest.
+LODESTIR_API std::vector<std::uint32_t> scheduledLevels(const Scene& scene, float frame);
 /// The policy in words, e.g. "schedule with 3 switches".
 LODESTIR_API std::string describe(const LodPolicy& policy);
 

@@ -7,6 +7,7 @@
 #include <framework/scene/environment_table.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/light_list.h>
+#include <framework/scene/mesh_bvh.h>
 #include <framework/scene/mipmaps.h>
 #include <framework/scene/pack.h>
 
@@ -72,16 +73,6 @@ std::uint32_t textureFlags(const Texture& t) {
            wrap(t.wrapV, TEXTURE_CLAMP_V, TEXTURE_MIRROR_V);
 }
 
-Box boundsOf(const Mesh& mesh) {
-    Box box;
-    for (const MeshLevel& level : mesh.levels)
-        for (const glm::vec3& p : level.positions) {
-            box.low = glm::min(box.low, p);
-            box.high = glm::max(box.high, p);
-        }
-    return box;
-}
-
 Box transformed(const Box& box, const glm::mat4& matrix) {
     if (box.low.x > box.high.x) return box;
     Box out;
@@ -122,7 +113,7 @@ struct WorldBuilder::Fixed {
     std::vector<BvhNode> nodes;  // of all mesh levels; kept so that a top level can be set behind them
     std::vector<Box> bounds, grids;  // of each mesh: box over its levels; grid base and scale
     std::vector<MeshEmitters> emitters;
-    gpu::Buffer triangles, roots, primitives, emitterIndices, positions, vertices, materials, textures, texels, environment;
+    gpu::Buffer triangles, roots, levels, meshes, primitives, emitterIndices, positions, vertices, materials, textures, texels, environment;
     std::size_t bytes = 0;
 };
 
@@ -144,6 +135,8 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
     auto fixed = std::make_shared<Fixed>();
     std::vector<BvhTriangle> triangles;
     std::vector<std::uint32_t> roots(scene.meshes.size() * LEVELS, bvh_ref::empty), emitterIndices;
+    std::vector<LevelRecord> levels(scene.meshes.size() * LEVELS);
+    std::vector<MeshRecord> meshes;
     std::vector<PrimitiveRecord> primitives;
     std::vector<glm::vec3> positions;
     std::vector<VertexRecord> vertices;
@@ -158,14 +151,12 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
         Box grid;
         for (std::size_t l = 0; l < mesh.levels.size(); ++l) {
             const MeshLevel& level = mesh.levels[l];
-            std::vector<std::uint32_t> masks(level.triangles.size(), 0);
-            for (std::size_t t = 0; t < masks.size(); ++t)
-                if (scene.materials[level.materials[t]].alphaMode == AlphaMode::mask) masks[t] = level.materials[t] + 1;
-            const Bvh bvh = cachedBvh({level.positions, level.triangles, masks, box});
+            const Bvh bvh = meshBvh(scene, mesh, l);
             grid = {bvh.gridBase, bvh.gridScale};
             const auto firstTriangle = std::uint32_t(triangles.size()), firstNode = std::uint32_t(fixed->nodes.size());
             const auto firstVertex = std::uint32_t(positions.size());
             roots[m * LEVELS + l] = relocate(bvh.root, firstNode, firstTriangle);
+            levels[m * LEVELS + l] = {firstTriangle, std::uint32_t(bvh.triangles.size()), level.error};
             appendNodes(bvh, firstTriangle, fixed->nodes);
             triangles.insert(triangles.end(), bvh.triangles.begin(), bvh.triangles.end());
             for (std::uint32_t t : bvh.order) {
@@ -194,7 +185,14 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
         // Levels that a mesh does not have show its coarsest; a mesh that emits always shows its finest, because the list of
         // lights is made of that one's triangles.
         const std::size_t last = fixed->emitters.back().empty() ? mesh.levels.size() - 1 : 0;
-        for (std::size_t l = last + 1; l < LEVELS; ++l) roots[m * LEVELS + l] = roots[m * LEVELS + last];
+        for (std::size_t l = last + 1; l < LEVELS; ++l) {
+            roots[m * LEVELS + l] = roots[m * LEVELS + last];
+            levels[m * LEVELS + l] = levels[m * LEVELS + last];
+        }
+        const bool empty = box.low.x > box.high.x;
+        meshes.push_back({.center = empty ? glm::vec3(0) : 0.5f * (box.low + box.high),
+                          .radius = empty ? 0 : 0.5f * glm::length(box.high - box.low),
+                          .levels = std::uint32_t(last + 1)});
         fixed->grids.push_back(grid);
     }
 
@@ -216,6 +214,8 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
     triangles.emplace_back();  // packets load 64 bytes at a time: the last triangle's load must end in readable memory
     fixed->triangles = upload(triangles, "triangles");
     fixed->roots = upload(roots, "roots");
+    fixed->levels = upload(levels, "mesh levels");
+    fixed->meshes = upload(meshes, "meshes");
     fixed->primitives = upload(primitives, "primitives");
     fixed->emitterIndices = upload(emitterIndices, "emitters");
     fixed->positions = upload(positions, "positions");
@@ -285,7 +285,9 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     }
     std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
     if (!levels_ || levels != levels_->values) {
-        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(levels), "levels");
+        std::vector<std::uint32_t> marked = levels;
+        marked.push_back(1);  // they differ from those before: made anew only then
+        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(marked), "levels");
         levels_ = std::make_shared<const Levels>(std::move(levels), std::move(buffer));
     }
     World w{};
@@ -300,6 +302,8 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.instanceCount = std::uint32_t(scene_.instances.size());
     w.instances = moving_->instances.address();
     w.primitives = fixed_->primitives.address();
+    w.meshLevels = fixed_->levels.address();
+    w.meshes = fixed_->meshes.address();
     w.emitters = fixed_->emitterIndices.address();
     w.positions = fixed_->positions.address();
     w.vertices = fixed_->vertices.address();

@@ -177,6 +177,10 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         lobe = t.shape.lobeBefore;
         way = unpackNormal(t.path.rcDirection);
         if (kind != RC_ENVIRONMENT) {
+            if (!isShown(w, t.path.rcInstance, t.path.rcPrimitive)) {  // of a level that this World doesn't show
+                shiftFail(t);
+                return false;
+            }
             goal = positionOn(w, t.path.rcInstance, t.path.rcPrimitive, unpackBarycentrics(t.path.rcBarycentrics));
             way = safeNormalize(goal - s.position, way);
         }

@@ -2,8 +2,10 @@
 // Whether two Worlds differ in nothing but their cameras. Memory that a later World shares with an earlier one holds the same things.
 #include "world/world.h"
 
-bool sameScene(World a, World b) {
-    return uint64_t(a.instances) == uint64_t(b.instances) && uint64_t(a.levels) == uint64_t(b.levels) && uint64_t(a.lights) == uint64_t(b.lights) &&
-           uint64_t(a.positions) == uint64_t(b.positions) && uint64_t(a.materials) == uint64_t(b.materials) &&
-           uint64_t(a.environment) == uint64_t(b.environment) && a.environmentRotation == b.environmentRotation;
+/// `now` is the World of a frame and `last` that of the frame before.
+bool sameScene(World now, World last) {
+    bool levels = uint64_t(now.levels) == uint64_t(last.levels) || now.levels.at[now.instanceCount] == 0u;
+    return levels && uint64_t(now.instances) == uint64_t(last.instances) && uint64_t(now.lights) == uint64_t(last.lights) &&
+           uint64_t(now.positions) == uint64_t(last.positions) && uint64_t(now.materials) == uint64_t(last.materials) &&
+           uint64_t(now.environment) == uint64_t(last.environment) && now.environmentRotation == last.environmentRotation;
 }

@@ -51,6 +51,20 @@ struct TextureSlotRecord {
     vec3 row0, row1;
 };
 
+// A mesh at one of its levels. Levels that a mesh does not have repeat its coarsest.
+struct LevelRecord {
+    uint firstPrimitive;  // in World.primitives
+    uint primitiveCount;
+    float error;          // measured distance to level 0, object units
+};
+
+// What selecting a level asks of a mesh.
+struct MeshRecord {
+    vec3 center;   // of the sphere around all its levels, object space
+    float radius;
+    uint levels;   // that may be chosen: 1 where it must stay at its finest
+};
+
 struct MaterialRecord {
     vec4 baseColor;
     vec3 emission;
@@ -138,6 +152,8 @@ LODESTIR_ARRAY(UintArray, uint)
 LODESTIR_ARRAY(Vec3Array, vec3)
 LODESTIR_ARRAY(VertexArray, VertexRecord)
 LODESTIR_ARRAY(PrimitiveArray, PrimitiveRecord)
+LODESTIR_ARRAY(LevelArray, LevelRecord)
+LODESTIR_ARRAY(MeshArray, MeshRecord)
 LODESTIR_ARRAY(InstanceArray, InstanceRecord)
 LODESTIR_ARRAY(MaterialArray, MaterialRecord)
 LODESTIR_ARRAY(TextureArray, TextureRecord)
@@ -160,6 +176,8 @@ struct World {
     // Geometry and materials.
     LODESTIR_ARRAY_OF(InstanceArray) instances;
     LODESTIR_ARRAY_OF(PrimitiveArray) primitives;
+    LODESTIR_ARRAY_OF(LevelArray) meshLevels;        // mesh m at level l: meshLevels[m * LEVELS + l]
+    LODESTIR_ARRAY_OF(MeshArray) meshes;
     LODESTIR_ARRAY_OF(UintArray) emitters;           // of each primitive: its place among its mesh's emissive triangles, NONE: not emissive
     LODESTIR_ARRAY_OF(Vec3Array) positions;          // object space
     LODESTIR_ARRAY_OF(VertexArray) vertices;

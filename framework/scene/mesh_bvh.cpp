@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include <framework/scene/mesh_bvh.h>
+
+namespace lodestir {
+
+Box boundsOf(const Mesh& mesh) {
+    Box box;
+    for (const MeshLevel& level : mesh.levels) {
+        for (const glm::vec3& p : level.positions) {
+            box.low = glm::min(box.low, p);
+            box.high = glm::max(box.high, p);
+        }
+    }
+    return box;
+}
+
+Bvh meshBvh(const Scene& scene, const Mesh& mesh, std::size_t level) {
+    const MeshLevel& shape = mesh.levels[level];
+    std::vector<std::uint32_t> masks(shape.triangles.size(), 0);
+    for (std::size_t t = 0; t < masks.size(); ++t)
+        if (scene.materials[shape.materials[t]].alphaMode == AlphaMode::mask) masks[t] = shape.materials[t] + 1;
+    return cachedBvh({shape.positions, shape.triangles, masks, boundsOf(mesh)});
+}
+
+}  // namespace lodestir
