@@ -106,7 +106,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         p.pHat = target(path);
         p.W = path.W;
     }
-    return shiftStart(p.shift, w, path, hit, from, to, frameSize(), hits(place(to)), false) && p.confidence > 0;
+    return shiftStart(p.shift, w, path, hit, from, to, frameSize(), hits(place(to)), 1, false) && p.confidence > 0;
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }

@@ -75,10 +75,12 @@ bool lightConnectable(ShiftRules rules, uint vertex, float roughness, float dist
     return emitterConnectable(criteriaOf(rules), roughness, distance);
 }
 
-/// Place inside the pixel on a grid of 2^-16, so that it survives the way through image coordinates and back.
-vec2 filmGrid(vec2 place) { return floor(place * 65536.0) * (1.0 / 65536.0); }
+/// Place inside the pixel on a grid of 2^-11: coarse enough to survive the way through image coordinates and back in images of up to 4096
+/// pixels, where products and sums err by less than half a step.
+const float FILM_STEPS = 2048.0;
+vec2 filmGrid(vec2 place) { return floor(place * FILM_STEPS) / FILM_STEPS; }
 vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) { return (vec2(pixel) + place) / vec2(size); }
-vec2 filmPlace(vec2 film, ivec2 pixel, uvec2 size) { return round((film * vec2(size) - vec2(pixel)) * 65536.0) * (1.0 / 65536.0); }
+vec2 filmPlace(vec2 film, ivec2 pixel, uvec2 size) { return round((film * vec2(size) - vec2(pixel)) * FILM_STEPS) / FILM_STEPS; }
 
 /// Do two camera rays coincide? The lens sample counts only where there is a lens.
 bool sameCameraSample(World w, PrimaryHit a, vec2 film, vec2 lens) { return a.film == film && (w.camera.aperture <= 0.0 || a.lens == lens); }

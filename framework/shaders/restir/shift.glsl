@@ -17,7 +17,8 @@
 const uint SHIFT_WALK = 0u;     // `ray` looks for the next vertex
 const uint SHIFT_CONNECT = 1u;  // it asks whether y_{k-1} sees x_k
 const uint SHIFT_LIGHT = 2u;    // it asks whether the last vertex sees the light sample
-const uint SHIFT_DONE = 3u;
+const uint SHIFT_SEE = 3u;      // it asks whether the lens sees y_1, which is known
+const uint SHIFT_DONE = 4u;
 
 struct Shift {
     Reservoir path;      // the base path; after success the shifted one: seed and shape stay, W means nothing
@@ -38,15 +39,12 @@ struct Shift {
     float pdf;           // of all lobes, of the direction from there; 0: camera or delta lobe
 };
 
-/// Starts the shift of `path`, whose camera sample is `base`, from pixel `from` to pixel `to` of an image of `size` pixels. `centre`: the known
-/// camera hit of pixel `to` in `w`, which saves a ray where it is of the same camera sample. False: the reservoir holds no path.
-bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 from, ivec2 to, uvec2 size, PrimaryHit centre, bool refresh) {
-    vec2 film = filmOf(to, filmPlace(base.hit.film, from, size), size);
+/// Common to both ways to start. `jacobian`: of what has happened to the path already.
+void shiftBegin(inout Shift t, Reservoir path, SampleHit base, PrimaryHit first, Ray ray, float jacobian, bool refresh) {
     t.path = path;
     t.hit = base;
-    t.known = sameCameraSample(w, centre, film, base.hit.lens);
-    t.hit.hit = t.known ? centre : PrimaryHit(NONE, NONE, vec2(0.0), film, base.hit.lens);
-    t.jacobian = holdsPath(path) ? 1.0 : 0.0;
+    t.hit.hit = first;
+    t.jacobian = jacobian;
     t.shape = unpackShape(path.shape);
     t.refresh = refresh;
     t.state = SHIFT_WALK;
@@ -54,17 +52,41 @@ bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 fr
     t.resumes = false;
     t.throughput = t.prefix = vec3(1.0);
     t.before = t.pdf = 0.0;
-    t.ray = cameraRay(w, film, base.hit.lens);
-    t.onward = t.ray;
-    t.from = t.ray.origin;
-    return holdsPath(path);
+    t.ray = t.onward = ray;
+    t.from = ray.origin;
+}
+
+/// Starts the shift of `path`, whose camera sample is `base`, from pixel `from` to pixel `to` of an image of `size` pixels. `centre`: the known
+/// camera hit of pixel `to` in `w`, which saves a ray where it is of the same camera sample. False: the reservoir holds no path.
+bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 from, ivec2 to, uvec2 size, PrimaryHit centre, float jacobian, bool refresh) {
+    vec2 film = filmOf(to, filmPlace(base.hit.film, from, size), size);
+    t.known = sameCameraSample(w, centre, film, base.hit.lens);
+    PrimaryHit first = centre;
+    if (!t.known) first = PrimaryHit(NONE, NONE, vec2(0.0), film, base.hit.lens);
+    shiftBegin(t, path, base, first, cameraRay(w, film, base.hit.lens), holdsPath(path) ? jacobian : 0.0, refresh);
+    return t.jacobian > 0.0;
+}
+
+/// Starts the shift of `path` to the camera hit `first` in `w`, which has its place on film and lens, and is asked for being seen from there.
+bool shiftStartAt(inout Shift t, World w, Reservoir path, SampleHit base, PrimaryHit first, float jacobian, bool refresh) {
+    Ray ray = cameraRay(w, first.film, first.lens);
+    if (first.primitive != NONE) {
+        vec3 way = positionOn(w, first.instance, first.primitive, first.barycentrics) - ray.origin;
+        ray.direction = safeNormalize(way, ray.direction);
+        float reach = length(way);
+        ray.tMax = reach - clamp(4.0 * positionError(w, ray.origin + way), 1e-5 * reach, 0.5 * reach);
+    }
+    shiftBegin(t, path, base, first, ray, holdsPath(path) ? jacobian : 0.0, refresh);
+    t.known = true;
+    t.state = SHIFT_SEE;
+    return t.jacobian > 0.0;
 }
 
 Ray shiftRay(Shift t, out bool anyHit, out uint purpose) {
     anyHit = t.state != SHIFT_WALK;
-    purpose = t.state == SHIFT_CONNECT ? RAYS_CONNECT : t.state == SHIFT_LIGHT ? RAYS_NEE : t.vertex == 0u ? RAYS_PRIMARY : RAYS_REPLAY;
+    purpose = t.state == SHIFT_CONNECT ? RAYS_CONNECT : t.state == SHIFT_LIGHT ? RAYS_NEE : t.state == SHIFT_SEE ? RAYS_VISIBILITY : t.vertex == 0u ? RAYS_PRIMARY : RAYS_REPLAY;
     Ray ray = t.ray;
-    if (t.known && t.vertex == 0u) {
+    if (t.known && t.state == SHIFT_WALK && t.vertex == 0u) {
         purpose = RAYS_PURPOSES;
         ray.tMax = -1.0;
     }
@@ -118,7 +140,7 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
     if (!target) t.state = SHIFT_DONE;
     if (target && !environment) {
         float G = connectionTerm(t.from, s);
-        t.jacobian = reconnectionJacobian(G, t.path.G);
+        t.jacobian *= reconnectionJacobian(G, t.path.G);
         t.path.G = G;
     }
 }
@@ -241,7 +263,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     }
     // x_k between y_{k-1} and what follows.
     float G = connectionTerm(t.from, s);
-    t.jacobian = reconnectionJacobian(G, t.path.G);
+    t.jacobian *= reconnectionJacobian(G, t.path.G);
     t.path.G = G;
     if (towards == TOWARDS_LIGHT) {
         // The light sample's numbers stay, its direction doesn't: d omega_y / d omega_x is the quotient of the densities.
@@ -264,6 +286,8 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
 
 /// Goes on from what `ray` hit; false: the shift is finished, and failed if jacobian is 0.
 bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
+    bool seen = t.state == SHIFT_SEE && hit.primitive == NONE;
+    if (seen) t.state = SHIFT_WALK;
     if (t.state == SHIFT_WALK) {
         vec3 direction = t.ray.direction;
         if (++t.vertex == 1u) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Where last frame's path of a pixel lands in this frame, and what this frame's path of a pixel would have been in the last.
+#ifndef LODESTIR_LANDING_H
+#define LODESTIR_LANDING_H
+#ifdef __cplusplus
+#include <framework/shaders/base/shared.h>
+#else
+#include "base/shared.h"
+#endif
+
+LODESTIR_SHARED_BEGIN
+
+struct Landing {
+    uint target;        // pixel it lands in, 0xffffffff: none
+    uint order;         // among those that land there
+    float jacobian;     // of the whole shift
+    float pHat;         // target of the path in last frame
+    float confidence;   // of the pixel it comes from, capped
+};
+
+// pHatFrom of this frame's path by each technique that could have made it from last frame, times the confidence of the pixel that would have.
+struct Origins {
+    float scattered;
+    float gathered;
+};
+
+LODESTIR_SHARED_END
+LODESTIR_SHARED(Landing, "landing.h")
+LODESTIR_SHARED(Origins, "landing.h")
+#endif

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Gives each pixel room for the paths that land in it. The order of the lists doesn't matter.
+#version 460
+#include "pass.glsl"
+
+void main() {
+    if (skip()) return;
+    uint i = pixelIndex(pixel()), count = counts(i);
+    storeStarts(i, count > 0 ? atomicAdd(OutUint(passBlock().cursor.address).at[0], count) : 0);
+}

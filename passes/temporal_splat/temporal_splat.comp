@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Resamples the pixel's own path with those that landed in it, and with the backup.
+//
+// All paths of last frame together are one technique: a path of this frame has one place on last frame's film, in one pixel. So weights are not
+// divided by the number of paths that land here (Liu et al. 2025, Reservoir Splatting). With a backup, the own path is compared with each of the
+// two techniques in turn, pairwise, because neither's density of the other's path is known.
+#version 460
+#include "pass.glsl"
+#include "restir/mis.glsl"
+#include "restir/reservoir.glsl"
+#include "restir/ris.glsl"
+#include "base/random.glsl"
+
+// m of a path of last frame: `from` its confidence times pHatFrom, `own` this pixel's confidence times p^.
+float pastMis(float from, float own, bool two) { return two ? 0.5 * balanceMis(0.5 * from, 0.5 * own) : balanceMis(from, own); }
+
+// m of the own path.
+float ownMis(float own, Origins o, bool two) {
+    float scattered = o.scattered > 0 ? balanceMis(own, o.scattered) : 1, gathered = o.gathered > 0 ? balanceMis(own, o.gathered) : 1;
+    return two ? 0.5 * (scattered + gathered) : scattered;
+}
+
+// The list of a pixel in order of its entries, so that the image doesn't depend on how threads ran.
+void sortList(uint start, uint count) {
+    for (uint i = 1; i < count; ++i) {
+        uint entry = lists(start + i), k = i;
+        for (; k > 0 && lists(start + k - 1) > entry; --k) storeLists(start + k, lists(start + k - 1));
+        storeLists(start + k, entry);
+    }
+}
+
+void main() {
+    if (skip()) return;
+    ivec2 p = pixel();
+    uint i = pixelIndex(p), start = starts(i), count = counts(i);
+    Reservoir own = reservoirs(i), kept = own;
+    SampleHit keptHit = samples(i);
+    ivec2 before = ivec2(floor(vec2(p) + 0.5 + motion(p)));
+    bool hasBefore = historyValid() && all(greaterThanEqual(before, ivec2(0))) && all(lessThan(uvec2(before), frameSize()));
+    float inherited = hasBefore ? cappedConfidence(confidence(history(pixelIndex(before))), params.cap) : 0;
+    bool two = params.withBackup && inherited > 0;
+    float mine = confidence(own);
+    uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
+
+    Ris ris = risStart();
+    risAdd(ris, resamplingWeight(historyValid() ? ownMis(mine * target(own), origins(i), two) : 1, target(own), own.W, 1), 0);
+    sortList(start, count);
+    for (uint k = 0; k < count; ++k) {
+        uint source = lists(start + k);
+        Landing landing = landings(source);
+        Reservoir path = shifted(source);
+        float m = pastMis(landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path), two);
+        if (!risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, k, RANDOM_FREE))) continue;
+        kept = path;
+        keptHit = shiftedSamples(source);
+    }
+    Landing landing = backups(i);
+    if (two && landing.target == i) {
+        Reservoir path = backup(i);
+        float m = pastMis(landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path), true);
+        if (risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, count, RANDOM_FREE + 1))) {
+            kept = path;
+            keptHit = backupSamples(i);
+        }
+    }
+    kept.W = contributionWeight(ris, target(kept));
+    setConfidence(kept, mine + inherited);
+    storeReservoirs(i, kept);
+    storeSamples(i, keptHit);
+    storeLanded(p, float(count));
+}
