@@ -25,6 +25,8 @@ World testWorld() {
     World w;
     w.nodes = w.triangles = w.traceInstances = w.tlas = 0ul;
     w.roots = w.levels = UintArray(0ul);
+    w.meshLevels = LevelArray(0ul);
+    w.meshes = MeshArray(0ul);
     w.gridBase = w.gridScale = w.sceneCenter = vec3(0.0);
     w.topRoot = NONE;
     w.instanceCount = w.lightCount = 0u;
