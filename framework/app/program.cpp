@@ -4,6 +4,7 @@
 #include <framework/app/check_command.h>
 #include <framework/app/compare_command.h>
 #include <framework/app/devices_command.h>
+#include <framework/app/lod_command.h>
 #include <framework/app/passes_command.h>
 #include <framework/app/run_command.h>
 #include <framework/app/scene_command.h>
@@ -31,6 +32,7 @@ int runProgram(int argc, char** argv) {
     addCheck(app, run);
     addScene(app, run);
     addDevices(app, run);
+    addLod(app, run);
     addStudy(app, run);
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());

@@ -122,7 +122,9 @@ private:
         std::vector<glm::mat4> placements;
         const glm::mat4 base = localMatrix(nodeFrom(import_.file, node));
         for (int level : chain) {
-            const glm::mat4 placement = level == node ? glm::mat4(1) : glm::inverse(base) * localMatrix(nodeFrom(import_.file, level));
+            const glm::mat4 local = localMatrix(nodeFrom(import_.file, level));
+            // Levels that stand where the node stands are shared by all nodes of the mesh; rounding must not part them.
+            const glm::mat4 placement = local == base ? glm::mat4(1) : glm::inverse(base) * local;
             placements.push_back(placement);
             key.emplace_back(model_.nodes[static_cast<std::size_t>(level)].mesh,
                              std::vector<float>(&placement[0][0], &placement[0][0] + 16));
@@ -175,11 +177,14 @@ private:
 
     void readErrors(int node, const std::vector<std::size_t>& source, Mesh& mesh) {
         const tinygltf::Value& extras = model_.nodes[static_cast<std::size_t>(node)].extras;
-        if (!extras.IsObject() || !extras.Has("lod_error") || !extras.Get("lod_error").IsArray()) return;
-        const tinygltf::Value& errors = extras.Get("lod_error");
-        for (std::size_t i = 1; i < mesh.levels.size(); ++i) {
-            const tinygltf::Value& error = errors.Get(static_cast<int>(source[i]));
-            if (error.IsNumber()) mesh.levels[i].error = std::max(static_cast<float>(error.GetNumberAsDouble()), mesh.levels[i - 1].error);
+        const auto read = [&](const char* key, std::size_t level) {
+            if (!extras.IsObject() || !extras.Has(key) || !extras.Get(key).IsArray()) return 0.0f;
+            const tinygltf::Value& value = extras.Get(key).Get(static_cast<int>(source[level]));
+            return value.IsNumber() ? static_cast<float>(value.GetNumberAsDouble()) : 0.0f;
+        };
+        for (std::size_t i = 0; i < mesh.levels.size(); ++i) {
+            if (i > 0) mesh.levels[i].error = std::max(read("lod_error", i), mesh.levels[i - 1].error);
+            mesh.levels[i].coverage = read("MSFT_screencoverage", i);
         }
     }
 

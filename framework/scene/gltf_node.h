@@ -7,7 +7,8 @@ namespace lodestir {
 
 /// Appends the nodes of the file's scene under `parent` and loads the meshes they use, each once for each chain of levels.
 /// A node with MSFT_lod has the meshes of the nodes it names as its coarser levels (placed relative to the node itself); those nodes
-/// are not instanced. Errors of the levels are read from the node's extras, `"lod_error": [0, e1, e2, ...]` in object units.
+/// are not instanced. Errors of the levels are read from the node's extras, `"lod_error": [0, e1, e2, ...]` in object units, and
+/// `"MSFT_screencoverage"`.
 /// Cycles, nodes with two parents and indices out of range are gathered as problems.
 void loadGltfNodes(GltfImport& import, std::uint32_t parent);
 

@@ -131,8 +131,7 @@ LodError LodReference::measure(const std::vector<glm::uvec3>& coarse) const {
 
     std::vector<float> distances = drifts(finest_, uvs_, coarse, coarsePoints, finest_.triangles, *chart_);
     error.uvLostCoarse = shareLost(distances);
-    error.uvLostFinest =
-        shareLost(drifts(finest_, uvs_, finest_.triangles, finestPoints, coarse, TriangleTree(uvs_, coarse)));
+    error.uvLostFinest = shareLost(drifts(finest_, uvs_, finest_.triangles, finestPoints, coarse, TriangleTree(uvs_, coarse)));
     std::erase_if(distances, [](float d) { return !std::isfinite(d); });
     if (distances.empty()) return error;
     std::ranges::sort(distances);

@@ -68,6 +68,7 @@ struct MeshLevel {
     std::vector<glm::uvec3> triangles;
     std::vector<std::uint32_t> materials;  ///< of each triangle, index into Scene::materials
     float error = 0;                   ///< measured geometric error against level 0, object units (0 for level 0)
+    float coverage = 0;                ///< MSFT_screencoverage: of the screen, down to which the file would show this level; 0: says nothing
 };
 
 inline constexpr int maxLevels = 8;

@@ -2,7 +2,11 @@
 // What became of one path on its way into another pixel or frame and back.
 #ifndef LODESTIR_SHIFT_CHECK_H
 #define LODESTIR_SHIFT_CHECK_H
+#ifdef __cplusplus
 #include <framework/shaders/base/shared.h>
+#else
+#include "base/shared.h"
+#endif
 
 LODESTIR_SHARED_BEGIN
 
@@ -15,6 +19,7 @@ struct ShiftCheck {
     float targetError;     // |p^ J J' / p^ - 1| of the same way: what the two forms of "the target from i" differ by
     float energy;          // p^(x) W of the path where it came from, 0 where the shift fails
     float energyShifted;   // p^(T x) J W where it went, likewise; both sums estimate one integral for two pixels that exchange paths
+    float stretch;         // G of x_k there / here, times light sampling's density here / there: paths that stretch there shrink on the way back
 };
 
 // Bits of ShiftCheck.outcome. Where CHECK_BACK is missing no error but errorMis is known.

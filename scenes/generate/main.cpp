@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
     };
     const Scene scenes[] = {{"cornell", writeCornell}, {"material_spheres", writeMaterialSpheres}, {"interior", writeInterior},
                             {"rock", writeRock},       {"ensemble_rooms", writeEnsembleRooms},     {"ensemble_views", writeEnsembleViews},
-                            {"furnace", writeFurnace}};
+                            {"furnace", writeFurnace}, {"plane", writePlane},                  {"cube", writeCube},
+                            {"chessboard", writeChessboard}};
 
     if (argc < 2) {
         std::fprintf(stderr, "usage: generate_scenes FOLDER [NAME]...\nnames:");

@@ -13,5 +13,8 @@ void writeRock(const std::filesystem::path& folder);
 void writeEnsembleRooms(const std::filesystem::path& folder);
 void writeEnsembleViews(const std::filesystem::path& folder);
 void writeFurnace(const std::filesystem::path& folder);
+void writePlane(const std::filesystem::path& folder);
+void writeCube(const std::filesystem::path& folder);
+void writeChessboard(const std::filesystem::path& folder);
 
 }  // namespace lodestir::generate

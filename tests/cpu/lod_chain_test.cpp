@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// Levels of detail: what may move and what must stay, and errors with known answers.
+#include "lod_surface.h"
+
+#include <framework/scene/lod_chain.h>
+#include <framework/scene/lod_simplify.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace lodestir {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+
+/// A sphere with the usual chart: a seam and two poles of many wedges.
+MeshLevel charted(int columns, int rows) {
+    return gridSurface(columns, rows, [&](float u, float v) {
+        const float phi = u == 1 ? 0 : u * 2 * pi, theta = v * pi, r = v == 0 || v == 1 ? 0 : std::sin(theta);
+        return glm::vec3(r * std::sin(phi), v == 0 ? 1 : v == 1 ? -1 : std::cos(theta), r * std::cos(phi));
+    });
+}
+
+/// A hilly sheet: the steepest slope is about 0.5.
+MeshLevel hills(int cells) {
+    return gridSurface(cells, cells, [](float u, float v) {
+        return glm::vec3(4 * u, 0.15f * std::sin(9 * u) * std::cos(7 * v) + 0.03f * std::sin(40 * u + 3 * v), 4 * v);
+    });
+}
+
+/// Where the finest level has this UV; nothing when it has not.
+std::vector<glm::vec3> pointsAt(const MeshLevel& level, glm::dvec2 uv) {
+    std::vector<glm::vec3> points;
+    for (const glm::uvec3& t : level.triangles) {
+        const glm::dvec2 a(level.uv0[t.x]), e = glm::dvec2(level.uv0[t.y]) - a, f = glm::dvec2(level.uv0[t.z]) - a, p = uv - a;
+        const double area = e.x * f.y - e.y * f.x, x = (p.x * f.y - p.y * f.x) / area, y = (e.x * p.y - e.y * p.x) / area;
+        if (area != 0 && x >= -1e-6 && y >= -1e-6 && x + y <= 1 + 1e-6)
+            points.push_back(level.positions[t.x] * float(1 - x - y) + level.positions[t.y] * float(x) + level.positions[t.z] * float(y));
+    }
+    return points;
+}
+
+// If this fails, what is flat costs triangles, or its texture slides.
+TEST(LodChain, APlaneKeepsItsShapeAndItsTexture) {
+    const MeshLevel plane = gridSurface(32, 32, [](float u, float v) { return glm::vec3(3 * u + v, 2 * v, u - v); });
+    const LodChain chain = buildLodChain(plane, {.levels = 5, .ratio = 4});
+    ASSERT_EQ(chain.coarser.size(), 4u) << chain.end;
+    EXPECT_TRUE(chain.hasUvs);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const LodLevel& level = chain.coarser[k];
+        EXPECT_LE(level.triangles.size(), 2048u >> (2 * k + 2));
+        EXPECT_LT(level.error, 2e-6f);
+        EXPECT_LT(level.measured.uvLargest, 2e-6f);
+        EXPECT_EQ(level.measured.uvLostFinest, 0);
+        EXPECT_EQ(level.measured.uvLostCoarse, 0);
+    }
+}
+
+// If this fails, errors are not what they say: an octahedron's faces are 1 / sqrt(3) from the middle of its sphere.
+TEST(LodError, OfAnOctahedronInItsSphere) {
+    const MeshLevel sphere = octahedralSphere(5);
+    const LodError error = LodReference(sphere).measure(octahedralSphere(0).triangles);
+    const float expected = 1 - 1 / std::sqrt(3.0f);
+    EXPECT_NEAR(error.toFinest, expected, 0.01f * expected);
+    EXPECT_NEAR(error.fromFinest, expected, 0.01f * expected);
+}
+
+// The farthest that a chord gets from a sphere is one less the distance of its nearest point from the middle.
+TEST(LodChain, ErrorsOfASphereAreThoseOfItsChords) {
+    const MeshLevel sphere = octahedralSphere(5);
+    const LodChain chain = buildLodChain(sphere, {.levels = 4, .ratio = 4});
+    ASSERT_EQ(chain.coarser.size(), 3u) << chain.end;
+    EXPECT_FALSE(chain.hasUvs);
+    EXPECT_NEAR(chain.radius, 1, 1e-6f);
+    for (const LodLevel& level : chain.coarser) {
+        const auto analytic = 1 - float(TriangleTree(sphere.positions, level.triangles).distance(glm::dvec3(0)));
+        EXPECT_NEAR(level.error, analytic, 0.04f * analytic + 1e-3f) << level.triangles.size();
+    }
+    for (const auto& [edge, uses] : edgeUses(sphere, chain.coarser.back().triangles)) EXPECT_EQ(uses, 2);
+}
+
+// If this fails, one side is not looked at: a hole is far from the finest level alone, a spike from the coarse one alone.
+TEST(LodError, SeesHolesAndSpikesFromTheRightSide) {
+    MeshLevel sheet = gridSurface(16, 16, [](float u, float v) { return glm::vec3(16 * u, 0, 16 * v); });
+    sheet.positions.push_back({8, 3, 8});
+    sheet.uv0.push_back({0.5f, 0.5f});
+    const LodReference reference(sheet);
+    EXPECT_NEAR(reference.measure(sheet.triangles).largest(), 0, 1e-6f);
+
+    std::vector<glm::uvec3> holed;
+    for (const glm::uvec3& t : sheet.triangles) {
+        const glm::vec3 middle = (sheet.positions[t.x] + sheet.positions[t.y] + sheet.positions[t.z]) / 3.0f;
+        if (std::abs(middle.x - 8) > 2 || std::abs(middle.z - 8) > 2) holed.push_back(t);
+    }
+    const LodError hole = reference.measure(holed);
+    EXPECT_NEAR(hole.fromFinest, 2, 1e-5f);
+    EXPECT_NEAR(hole.toFinest, 0, 1e-6f);
+    EXPECT_NEAR(hole.uvLostFinest, 16.0f / 256, 0.003f);
+    EXPECT_EQ(hole.uvLostCoarse, 0);
+
+    std::vector<glm::uvec3> spiked = sheet.triangles;
+    spiked.push_back({spiked[0].x, spiked[0].y, std::uint32_t(sheet.positions.size() - 1)});
+    const LodError spike = reference.measure(spiked);
+    EXPECT_NEAR(spike.toFinest, 3, 1e-5f);
+    EXPECT_NEAR(spike.fromFinest, 0, 1e-6f);
+}
+
+// If this fails, paths that are mapped by UV arrive elsewhere.
+TEST(LodChain, PointsOfOneUvStayTogether) {
+    const MeshLevel finest = hills(64);
+    const LodChain chain = buildLodChain(finest, {.levels = 5, .ratio = 2});
+    ASSERT_EQ(chain.coarser.size(), 4u) << chain.end;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit;
+    for (const LodLevel& level : chain.coarser) {
+        for (int i = 0; i < 300; ++i) {
+            const glm::uvec3 t = level.triangles[random() % level.triangles.size()];
+            double x = unit(random), y = unit(random);
+            if (x + y > 1) x = 1 - x, y = 1 - y;
+            const auto mix = [&](const auto& values) {
+                return values[t.x] * float(1 - x - y) + values[t.y] * float(x) + values[t.z] * float(y);
+            };
+            const std::vector<glm::vec3> matches = pointsAt(finest, glm::dvec2(mix(finest.uv0)));
+            ASSERT_FALSE(matches.empty()) << "a UV of the coarse level that the finest does not have";
+            EXPECT_LE(glm::distance(matches[0], mix(finest.positions)), 1.05f * level.measured.uvLargest);
+        }
+        EXPECT_LT(level.measured.uvLargest, 1.5f * level.error + 1e-6f) << "the texture moves farther than the surface";
+        EXPECT_EQ(level.measured.uvLostCoarse, 0);
+        EXPECT_EQ(level.measured.uvLostFinest, 0);
+        for (const glm::uvec3& t : level.triangles) EXPECT_LT(uvAreaOf(finest, t), 0) << "a fold";
+    }
+}
+
+// UVs that run unevenly over a plane: shape alone would let them slide freely.
+TEST(LodChain, TextureHoldsWhatShapeWouldLetGo) {
+    MeshLevel sheet = gridSurface(48, 48, [](float u, float v) { return glm::vec3(u, 0, v); });
+    for (glm::vec2& uv : sheet.uv0) uv = {uv.x + 0.1f * std::sin(6 * uv.y), uv.y * uv.y * 0.7f + 0.3f * uv.y};
+    const LodChain chain = buildLodChain(sheet, {.levels = 3, .ratio = 4});
+    ASSERT_EQ(chain.coarser.size(), 2u);
+    EXPECT_LT(chain.coarser[0].error, 1e-6f);
+    EXPECT_LT(chain.coarser[0].measured.uvLargest, 0.01f);
+    EXPECT_LT(chain.coarser[1].measured.uvLargest, 0.03f);
+    EXPECT_LT(chain.coarser[1].measured.uvLostFinest, 0.01f);
+}
+
+// If this fails, charts tear apart, or a border of a chart wanders into another's texture.
+TEST(LodChain, SeamsAndPolesStayClosed) {
+    const MeshLevel sphere = charted(64, 32);
+    const LodChain chain = buildLodChain(sphere, {.levels = 4, .ratio = 2});
+    ASSERT_EQ(chain.coarser.size(), 3u) << chain.end;
+    for (const LodLevel& level : chain.coarser) {
+        for (const auto& [edge, uses] : edgeUses(sphere, level.triangles)) EXPECT_EQ(uses, 2);
+        for (const glm::uvec3& t : level.triangles) EXPECT_LT(uvAreaOf(sphere, t), 0);
+        EXPECT_LT(level.measured.uvLostFinest, 0.02f) << "the chart's corners at the poles";
+    }
+}
+
+// Two halves that wear the same half of a texture, joined by vertices that they share.
+TEST(LodChain, MirroredHalvesMeetOnTheirLine) {
+    MeshLevel body = gridSurface(32, 32, [](float u, float v) {
+        const float x = 2 * u - 1;
+        return glm::vec3(x, 0.6f * (1 - x * x) * std::sin(3 * v) + 0.05f * std::cos(9 * x * x + 8 * v), 2 * v);
+    });
+    for (glm::vec2& uv : body.uv0) uv.x = std::abs(2 * uv.x - 1);
+    const auto outer = [](const std::vector<float>& e) {
+        return (std::abs(e[0]) == 1 && e[0] == e[3]) || (e[2] == 0 && e[5] == 0) || (e[2] == 2 && e[5] == 2);
+    };
+    const LodChain chain = buildLodChain(body, {.levels = 4, .ratio = 2});
+    ASSERT_EQ(chain.coarser.size(), 3u) << chain.end;
+    for (const LodLevel& level : chain.coarser) {
+        for (const glm::uvec3& t : level.triangles) {
+            float low = 1, high = -1;
+            for (int k = 0; k < 3; ++k) low = std::min(low, body.positions[t[k]].x), high = std::max(high, body.positions[t[k]].x);
+            EXPECT_GE(low * high, 0) << "a triangle across the line";
+            EXPECT_EQ(uvAreaOf(body, t) > 0, high <= 0) << "mirrored the wrong way";
+        }
+        for (const auto& [edge, uses] : edgeUses(body, level.triangles)) EXPECT_EQ(uses, outer(edge) ? 1 : 2);
+        EXPECT_EQ(level.measured.uvLostFinest, 0);
+    }
+}
+
+// If this fails, a flat-shaded box cannot be simplified at all, or is shaded round.
+TEST(LodChain, HardEdgesMoveAndKeepTheirNormals) {
+    MeshLevel box;
+    for (int face = 0; face < 6; ++face) {
+        const auto turned = [&](glm::vec3 p) {
+            if (face & 1) p = {-p.x, p.y, -p.z};
+            return face < 2 ? p : face < 4 ? glm::vec3(p.y, p.z, p.x) : glm::vec3(p.z, p.x, p.y);
+        };
+        const MeshLevel side = gridSurface(8, 8, [&](float u, float v) { return turned({2 * u - 1, 1 - 2 * v, 1}); });
+        const auto base = std::uint32_t(box.positions.size());
+        for (const glm::uvec3& t : side.triangles) box.triangles.push_back(t + base);
+        box.positions.insert(box.positions.end(), side.positions.begin(), side.positions.end());
+        box.uv0.insert(box.uv0.end(), side.uv0.begin(), side.uv0.end());  // all six faces wear the whole picture
+        box.normals.insert(box.normals.end(), side.positions.size(), turned({0, 0, 1}));
+    }
+    box.materials.assign(box.triangles.size(), 0);
+    Simplifier simplifier(box);
+    simplifier.reduce(0);
+    const Simplified smallest = simplifier.result();
+    EXPECT_EQ(smallest.triangles.size(), 12u);
+    for (const glm::uvec3& t : smallest.triangles) {
+        EXPECT_EQ(box.normals[t.x], box.normals[t.y]);
+        EXPECT_EQ(box.normals[t.x], box.normals[t.z]);
+    }
+    const LodError error = LodReference(box).measure(smallest.triangles);
+    EXPECT_LT(error.largest(), 1e-6f);
+    EXPECT_LT(error.uvLargest, 1e-5f) << "of six points of one UV the nearest counts";
+}
+
+// If this fails, one material spreads over another's part.
+TEST(LodChain, MaterialsKeepTheirParts) {
+    MeshLevel sheet = gridSurface(24, 24, [](float u, float v) { return glm::vec3(u, 0.1f * std::sin(12 * u * v), v); });
+    for (std::size_t t = 0; t < sheet.triangles.size(); ++t) {
+        const glm::vec3 middle =
+            (sheet.positions[sheet.triangles[t].x] + sheet.positions[sheet.triangles[t].y] + sheet.positions[sheet.triangles[t].z]) / 3.0f;
+        sheet.materials[t] = middle.x < 0.5f ? 3 : 8;
+    }
+    const LodChain chain = buildLodChain(sheet, {.levels = 3, .ratio = 4});
+    ASSERT_EQ(chain.coarser.size(), 2u);
+    const LodLevel& level = chain.coarser.back();
+    for (std::size_t t = 0; t < level.triangles.size(); ++t)
+        for (int k = 0; k < 3; ++k) {
+            const float x = sheet.positions[level.triangles[t][k]].x;
+            EXPECT_TRUE(level.groups[t] == 3 ? x <= 0.5f : x >= 0.5f);
+        }
+}
+
+// Separate little squares, far apart: a triangle for each is half the picture, though it is close enough in space.
+TEST(LodChain, ALevelThatLosesUvsIsNotMade) {
+    MeshLevel labels;
+    for (int i = 0; i < 40; ++i) {
+        const MeshLevel label = gridSurface(1, 1, [&](float u, float v) { return glm::vec3(20 * i + u, v, 0); });
+        for (const glm::uvec3& t : label.triangles) labels.triangles.push_back(t + std::uint32_t(labels.positions.size()));
+        labels.positions.insert(labels.positions.end(), label.positions.begin(), label.positions.end());
+        for (const glm::vec2& uv : label.uv0) labels.uv0.push_back({(float(i) + uv.x) / 40, uv.y});
+    }
+    labels.materials.assign(labels.triangles.size(), 0);
+    const LodChain chain = buildLodChain(labels, {});
+    EXPECT_EQ(chain.coarser.size(), 0u);
+    EXPECT_NE(chain.end.find("50 % of its UVs would have no partner"), std::string::npos) << chain.end;
+}
+
+TEST(LodChain, SaysWhyItEndsEarly) {
+    const MeshLevel tiny = octahedralSphere(0);
+    const LodChain few = buildLodChain(tiny, {.levels = 4, .ratio = 4});
+    EXPECT_LT(few.coarser.size(), 3u);
+    EXPECT_FALSE(few.end.empty());
+    MeshLevel triangle;
+    triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    triangle.materials = {0};
+    EXPECT_EQ(buildLodChain(triangle, {}).coarser.size(), 0u);
+    MeshLevel broken = triangle;
+    broken.positions[0].x = std::nanf("");
+    EXPECT_EQ(buildLodChain(broken, {}).coarser.size(), 0u);
+}
+
+// At coverage c of a 16:9 image of 1080 rows, the sphere is 1080 sqrt(c 16/9 4/pi) rows high; the next level's error is then one row.
+TEST(LodChain, CoveragesPutTheNextErrorAtAPixel) {
+    LodChain chain{.radius = 2};
+    chain.coarser = {{.error = 0}, {.error = 0.01f}, {.error = 0.1f}};
+    const std::vector<float> coverages = screenCoverages(chain);
+    ASSERT_EQ(coverages.size(), 4u);
+    EXPECT_EQ(coverages[0], 1);
+    EXPECT_NEAR(1080 * std::sqrt(coverages[1] * 16 / 9 * 4 / pi) * 0.01f / 4, 1, 1e-4f);
+    EXPECT_NEAR(1080 * std::sqrt(coverages[2] * 16 / 9 * 4 / pi) * 0.1f / 4, 1, 1e-4f);
+    EXPECT_EQ(coverages[3], 0);
+}
+
+}  // namespace
+}  // namespace lodestir
