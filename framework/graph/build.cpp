@@ -218,6 +218,12 @@ private:
         return false;
     }
 
+    /// An input that has to be wired and that the file doesn't wire, rightly or wrongly.
+    bool isFree(std::size_t i, std::size_t p) const {
+        const Port& port = *nodes()[i].pass->ports[p];
+        return port.isInput() && !port.optional && std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
+    }
+
     /// Unwired World inputs take the last World of the file that doesn't depend on them, a pass that makes a World the one before itself.
     /// "...Prev" inputs take last frame's.
     void bindWorlds() {
@@ -226,8 +232,7 @@ private:
                 if (!nodes()[i].pass || makesWorld(nodes()[i]) != producers) continue;
                 for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
                     const Port& port = *nodes()[i].pass->ports[p];
-                    const bool free = std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
-                    if (port.isInput() && isWorld(port) && !port.optional && free)
+                    if (isFree(i, p) && isWorld(port))
                         nodes()[i].inputs[p] = worldFor(i, port.name.ends_with("Prev"));
                 }
             }
@@ -252,8 +257,7 @@ private:
             if (!nodes()[i].pass) continue;
             for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
                 const Port& port = *nodes()[i].pass->ports[p];
-                const bool free = port.isInput() && !port.optional && std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
-                if (!free || port.type.kind != PortType::Kind::handle || isWorld(port)) continue;
+                if (!isFree(i, p) || port.type.kind != PortType::Kind::handle || isWorld(port)) continue;
                 const std::vector<Source> sources = sourcesFor(i, port);
                 if (sources.size() == 1) nodes()[i].inputs[p] = sources.front();
             }
@@ -265,8 +269,7 @@ private:
         if (!node.pass || node.off) return;
         for (std::size_t p = 0; p < node.inputs.size(); ++p) {
             const Port& port = *node.pass->ports[p];
-            if (!port.isInput() || port.optional || node.inputs[p]) continue;
-            if (std::ranges::find(wired_, Source{int(i), int(p)}) != wired_.end()) continue;  // wired, but wrongly
+            if (node.inputs[p] || !isFree(i, p)) continue;  // what the file wires wrongly was said
             const std::string candidates = textOf(sourcesFor(i, port));
             problems_.add(node.where,
                           fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, port.name, port.type.text(), port.doc),

@@ -19,23 +19,6 @@
 namespace lodestir {
 namespace {
 
-/// Moves a reference of a mesh's own BVH to its place among all nodes and triangles.
-std::uint32_t relocate(std::uint32_t reference, std::uint32_t nodes, std::uint32_t triangles) {
-    if (reference == bvh_ref::empty || reference >= bvh_ref::back) return reference;
-    return reference + (reference < bvh_ref::leaf ? nodes : triangles);
-}
-
-void appendNodes(const Bvh& bvh, std::uint32_t firstTriangle, std::vector<BvhNode>& nodes) {
-    const auto firstNode = std::uint32_t(nodes.size());
-    for (BvhNode node : bvh.nodes) {
-        for (int child = 0; child < 4; ++child) {
-            std::uint32_t& reference = node.dwords[std::size_t(2 * (4 + child) + 1)];
-            reference = relocate(reference, firstNode, firstTriangle);
-        }
-        nodes.push_back(node);
-    }
-}
-
 TextureSlotRecord slotRecord(const TextureSlot& slot) {
     const float c = std::cos(slot.rotation), s = std::sin(slot.rotation);
     return {.texture = slot.texture,
@@ -153,11 +136,10 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
             const MeshLevel& level = mesh.levels[l];
             const Bvh bvh = meshBvh(scene, mesh, l);
             grid = {bvh.gridBase, bvh.gridScale};
-            const auto firstTriangle = std::uint32_t(triangles.size()), firstNode = std::uint32_t(fixed->nodes.size());
+            const auto firstTriangle = std::uint32_t(triangles.size());
             const auto firstVertex = std::uint32_t(positions.size());
-            roots[m * LEVELS + l] = relocate(bvh.root, firstNode, firstTriangle);
+            roots[m * LEVELS + l] = appendNodes(bvh, fixed->nodes, firstTriangle);
             levels[m * LEVELS + l] = {firstTriangle, std::uint32_t(bvh.triangles.size()), level.error};
-            appendNodes(bvh, firstTriangle, fixed->nodes);
             triangles.insert(triangles.end(), bvh.triangles.begin(), bvh.triangles.end());
             for (std::uint32_t t : bvh.order) {
                 const glm::uvec3 corners = level.triangles[t];
@@ -263,11 +245,9 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const std::
 
     const Bvh top = buildTopLevel(boxes);
     std::vector<BvhNode> nodes = fixed_->nodes;
-    const auto firstNode = std::uint32_t(nodes.size());
-    appendNodes(top, 0, nodes);
     moving->gridBase = top.gridBase;
     moving->gridScale = top.gridScale;
-    moving->topRoot = relocate(top.root, firstNode, 0);
+    moving->topRoot = top.root == bvh_ref::empty ? top.root : appendNodes(top, nodes, 0);
     moving->nodes = gpu::makeBuffer(device_, std::span<const BvhNode>(nodes), "nodes");
     moving->traceInstances = gpu::makeBuffer(device_, std::span<const TraceInstance>(traced), "trace instances");
     moving->instances = gpu::makeBuffer(device_, std::span<const InstanceRecord>(records), "instances");

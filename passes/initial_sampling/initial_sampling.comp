@@ -41,7 +41,7 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
-    if (p.known && p.tree.vertex == 0) hit = Hit(0, p.centre.barycentrics, p.centre.primitive, p.centre.instance);
+    if (p.known && p.tree.vertex == 0) hit = hitOf(p.centre);
     TreeLimits limits = TreeLimits(uint(params.segmentsMin), uint(params.bounces) + 1, params.roulette);
     return treeStep(p.tree, w, rules(), limits, hit, p.decisions);
 }

@@ -85,9 +85,9 @@ bool pathStep(inout Path p, World w, Hit hit) {
 void mergeHistory(inout Path p, World w, ivec2 pixel) {
     p.kept.M = 1;
     p.kept.W = contributionWeight(p.ris, p.kept.pHat);
-    ivec2 before = ivec2(floor(vec2(pixel) + 0.5 + motion(pixel)));
+    ivec2 before = pixelBefore(pixel, motion(pixel));
     if (!historyValid() || params.cap == 0) return;
-    if (any(lessThan(before, ivec2(0))) || any(greaterThanEqual(uvec2(before), frameSize()))) return;
+    if (!inside(before)) return;
     World last = worldPrev();
     PrimaryHit here = hits(pixelIndex(pixel)), there = hitsPrev(pixelIndex(before));
     if (!similarViews(pixelView(w, here), pixelView(last, there), params.normal, params.depth)) return;

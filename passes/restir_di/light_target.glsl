@@ -6,7 +6,7 @@
 #include "light_reservoir.h"
 #include "restir/mis.glsl"
 #include "restir/ris.glsl"
-#include "restir/similarity.glsl"
+#include "restir/neighbours.glsl"
 #include "world/camera.glsl"
 
 /// The surface that a pixel sees, ready to be lit.
@@ -22,7 +22,7 @@ LitSurface litSurface(World w, PrimaryHit h) {
     l.sky = h.primitive == NONE;
     if (l.sky) return l;
     l.wo = -cameraRay(w, h.film, h.lens).direction;
-    l.s = surfaceAt(w, Hit(0.0, h.barycentrics, h.primitive, h.instance), -l.wo);
+    l.s = surfaceAt(w, hitOf(h), -l.wo);
     l.b = bsdfAt(w, l.s);
     return l;
 }

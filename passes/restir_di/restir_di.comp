@@ -20,10 +20,8 @@ uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(),
 
 // Neighbour i of the pixel; the pixel itself where there is none.
 ivec2 neighbourOf(World w, ivec2 pixel, uint i) {
-    vec2 u = random2(decisions(pixel), i, RANDOM_FREE);
-    float r = params.radius * sqrt(u.x), angle = TWO_PI * u.y;
-    ivec2 q = pixel + ivec2(round(r * vec2(cos(angle), sin(angle))));
-    if (!inside(q) || any(lessThan(q, ivec2(0)))) return pixel;
+    ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
+    if (!inside(q)) return pixel;
     return similarViews(pixelView(w, hits(pixelIndex(pixel))), pixelView(w, hits(pixelIndex(q))), params.normal, params.depth) ? q : pixel;
 }
 

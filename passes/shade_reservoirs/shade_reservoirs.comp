@@ -7,8 +7,6 @@
 #include "restir/reservoir.glsl"
 #include "world/camera.glsl"
 
-Hit hitOf(PrimaryHit h) { return Hit(0, h.barycentrics, h.primitive, h.instance); }
-
 // Light seen directly through the pixel.
 vec3 emissionAt(World w, PrimaryHit h) {
     vec3 direction = cameraRay(w, h.film, h.lens).direction;

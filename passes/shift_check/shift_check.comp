@@ -5,7 +5,7 @@
 #include "restir/mis.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
-#include "restir/similarity.glsl"
+#include "restir/neighbours.glsl"
 #include "world/same_scene.glsl"
 
 struct Path {
@@ -30,7 +30,7 @@ SampleHit partnerSample(ivec2 p) { return historySamples(place(p)); }
 PrimaryHit partnerCentre(ivec2 p) { return hitsPrev(place(p)); }
 bool mayPair() { return historyValid(); }
 World partnerWorld() { return worldPrev(); }
-ivec2 choosePartner(ivec2 pixel) { return ivec2(floor(vec2(pixel) + 0.5 + motion(pixel))); }
+ivec2 choosePartner(ivec2 pixel) { return pixelBefore(pixel, motion(pixel)); }
 bool alike(ivec2 pixel, ivec2 q) { return true; }
 #else
 const bool BETWEEN_FRAMES = false;
@@ -40,8 +40,7 @@ PrimaryHit partnerCentre(ivec2 p) { return hits(place(p)); }
 bool mayPair() { return true; }
 World partnerWorld() { return scene; }
 ivec2 choosePartner(ivec2 pixel) {
-    vec2 u = random2(resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt()), 0, RANDOM_FREE);
-    return pixel + ivec2(round(params.radius * sqrt(u.x) * vec2(cos(TWO_PI * u.y), sin(TWO_PI * u.y))));
+    return pixelInDisk(pixel, params.radius, random2(resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt()), 0, RANDOM_FREE));
 }
 bool alike(ivec2 pixel, ivec2 q) {
     return q != pixel && similarViews(pixelView(scene, hits(place(pixel))), pixelView(scene, hits(place(q))), params.normal, params.depth);
@@ -61,7 +60,7 @@ void begin(inout Path p, ivec2 pixel) {
     p.paired = false;
     if (!mayPair()) return;
     p.partner = choosePartner(pixel);
-    if (any(lessThan(p.partner, ivec2(0))) || any(greaterThanEqual(uvec2(p.partner), frameSize())) || !alike(pixel, p.partner)) return;
+    if (!inside(p.partner) || !alike(pixel, p.partner)) return;
     p.paired = true;
     p.refresh = params.suffix == suffix_walked || (BETWEEN_FRAMES && params.suffix == suffix_automatic && !sameScene(scene, partnerWorld()));
 }

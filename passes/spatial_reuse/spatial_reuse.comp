@@ -5,12 +5,13 @@
 #include "restir/mis.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
-#include "restir/similarity.glsl"
+#include "restir/neighbours.glsl"
 
 struct Path {
     Shift shift;
     Reservoir own;
     SampleHit ownHit;
+    PixelView view;
     PairwiseMis pairs;
     float ownShare;      // m of the own path so far
     ivec2 neighbour;
@@ -37,22 +38,20 @@ SampleHit inputSample(ivec2 p) {
 
 uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + argument(0)); }
 
-// Neighbour i of the pixel; the pixel itself where there is none.
-ivec2 neighbourOf(ivec2 pixel, uint i) {
-    vec2 u = random2(decisions(pixel), i, RANDOM_FREE);
-    float r = params.radius * sqrt(u.x), angle = TWO_PI * u.y;
-    ivec2 q = pixel + ivec2(round(r * vec2(cos(angle), sin(angle))));
-    if (!inside(q) || any(lessThan(q, ivec2(0)))) return pixel;
-    PixelView mine = pixelView(scene, hits(place(pixel))), theirs = pixelView(scene, hits(place(q)));
-    return similarViews(mine, theirs, params.normal, params.depth) ? q : pixel;
+// Neighbour i of the pixel, which sees `mine`; the pixel itself where there is none.
+ivec2 neighbourOf(ivec2 pixel, PixelView mine, uint i) {
+    ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
+    if (!inside(q)) return pixel;
+    return similarViews(mine, pixelView(scene, hits(place(q))), params.normal, params.depth) ? q : pixel;
 }
 
 void begin(inout Path p, ivec2 pixel) {
     p.own = inputReservoir(pixel);
     p.ownHit = inputSample(pixel);
+    p.view = pixelView(scene, hits(place(pixel)));
     float sum = 0;
     for (uint i = 0; i < uint(params.neighbours); ++i) {
-        ivec2 q = neighbourOf(pixel, i);
+        ivec2 q = neighbourOf(pixel, p.view, i);
         if (q != pixel) sum += confidence(inputReservoir(q));
     }
     float mine = confidence(p.own);
@@ -95,7 +94,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     Reservoir path = p.own;
     SampleHit hit = p.ownHit;
     if ((item & 1) == 0) {
-        p.neighbour = neighbourOf(pixel, item >> 1);
+        p.neighbour = neighbourOf(pixel, p.view, item >> 1);
         p.confidence = 0;
         if (p.neighbour == pixel) return false;
         from = p.neighbour;

@@ -5,7 +5,7 @@
 #include "restir/mis.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
-#include "restir/similarity.glsl"
+#include "restir/neighbours.glsl"
 #include "world/same_scene.glsl"
 
 struct Path {
@@ -31,11 +31,11 @@ World pathWorld(uint item) {
 void begin(inout Path p, ivec2 pixel) {
     p.own = reservoirs(place(pixel));
     p.ownHit = samples(place(pixel));
-    p.before = ivec2(floor(vec2(pixel) + 0.5 + motion(pixel)));
+    p.before = pixelBefore(pixel, motion(pixel));
     p.confidence = 0;
     p.jacobian = 0;
     if (!historyValid()) return;
-    if (any(lessThan(p.before, ivec2(0))) || any(greaterThanEqual(uvec2(p.before), frameSize()))) return;
+    if (!inside(p.before)) return;
     World last = worldPrev();
     PixelView here = pixelView(scene, hits(place(pixel))), there = pixelView(last, hitsPrev(place(p.before)));
     if (params.depth < 1e6 && !similarViews(here, there, params.normal, params.depth)) return;

@@ -11,7 +11,7 @@ float filmTerm(World w, PrimaryHit hit) {
     vec3 direction = ray.direction;
     if (hit.primitive != NONE) {
         direction = safeNormalize(positionOn(w, hit.instance, hit.primitive, hit.barycentrics) - ray.origin, direction);
-        connection = connectionTerm(ray.origin, surfaceAt(w, Hit(0.0, hit.barycentrics, hit.primitive, hit.instance), direction));
+        connection = connectionTerm(ray.origin, surfaceAt(w, hitOf(hit), direction));
     }
     float cosine = dot(direction, w.camera.forward);
     float film = length(w.camera.right) * length(w.camera.up);

@@ -5,6 +5,7 @@
 #include "pass.glsl"
 #include "film_projection.glsl"
 #include "restir/mis.glsl"
+#include "restir/neighbours.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "lod/vertex_mapping.glsl"
@@ -84,8 +85,8 @@ bool scatter(inout Path p, World from, World to, Reservoir path, SampleHit hit, 
 void begin(inout Path p, ivec2 pixel) {
     p.own = reservoirs(place(pixel));
     p.ownHit = samples(place(pixel));
-    p.before = ivec2(floor(vec2(pixel) + 0.5 + motion(pixel)));
-    p.hasBefore = all(greaterThanEqual(p.before, ivec2(0))) && all(lessThan(uvec2(p.before), frameSize()));
+    p.before = pixelBefore(pixel, motion(pixel));
+    p.hasBefore = inside(p.before);
     p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, worldPrev()));
     p.origins = Origins(0, 0);
 }

@@ -7,6 +7,7 @@
 #version 460
 #include "pass.glsl"
 #include "restir/mis.glsl"
+#include "restir/neighbours.glsl"
 #include "restir/reservoir.glsl"
 #include "restir/ris.glsl"
 #include "base/random.glsl"
@@ -35,8 +36,8 @@ void main() {
     uint i = pixelIndex(p), start = starts(i), count = counts(i);
     Reservoir own = reservoirs(i), kept = own;
     SampleHit keptHit = samples(i);
-    ivec2 before = ivec2(floor(vec2(p) + 0.5 + motion(p)));
-    bool hasBefore = historyValid() && all(greaterThanEqual(before, ivec2(0))) && all(lessThan(uvec2(before), frameSize()));
+    ivec2 before = pixelBefore(p, motion(p));
+    bool hasBefore = historyValid() && inside(before);
     float inherited = hasBefore ? cappedConfidence(confidence(history(pixelIndex(before))), params.cap) : 0;
     bool two = params.withBackup && inherited > 0;
     float mine = confidence(own);

@@ -291,7 +291,7 @@ bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
     if (t.state == SHIFT_WALK) {
         vec3 direction = t.ray.direction;
         if (++t.vertex == 1u) {
-            if (t.known) hit = Hit(0.0, t.hit.hit.barycentrics, t.hit.hit.primitive, t.hit.hit.instance);
+            if (t.known) hit = hitOf(t.hit.hit);
             t.hit.hit = primaryHit(hit, t.hit.hit.film, t.hit.hit.lens);
         } else {
             hit.barycentrics = onGrid(hit.barycentrics);

@@ -4,6 +4,7 @@
 #include "base/pack.glsl"
 #include "texture/material_map.glsl"
 #include "trace/ray.h"
+#include "world/primary_hit.h"
 #include "world/triangle.glsl"
 #include "world/world.h"
 
@@ -42,6 +43,9 @@ vec3 mapNormal(World w, Surface s, Placement placement, float mirror, uvec3 corn
     m.xy *= w.materials.at[s.material].normalScale;
     return safeNormalize(m.x * tangent + m.y * bitangent + m.z * n, n);
 }
+
+/// A camera hit as a ray gave it, but for its distance.
+Hit hitOf(PrimaryHit h) { return Hit(0.0, h.barycentrics, h.primitive, h.instance); }
 
 /// `w` is the World the ray was traced in; rayDirection may have any length.
 Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
