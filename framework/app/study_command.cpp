@@ -29,17 +29,23 @@ struct StudyOptions {
 struct SceneReferences {
     std::size_t scene = 0;
     double exposure = 1;
-    std::vector<Halves> frames;  ///< parallel to Study::measure
+    std::vector<Halves> frames, finest;    ///< parallel to Study::measure; the second where the study asks for it
+    std::vector<std::vector<bool>> masks;  ///< likewise
 };
 
 SceneReferences makeReferences(Stage& stage, const Study& study, std::size_t scene, const Path& folder) {
     SceneReferences references{.scene = scene};
-    for (const int offset : study.measure) references.frames.push_back(stage.reference(scene, offset, folder));
+    if (study.maskSwitched) references.masks = stage.switchedMasks(scene);
+    for (const int offset : study.measure) {
+        references.frames.push_back(stage.reference(scene, offset, folder));
+        if (study.referenceFinest) references.finest.push_back(stage.reference(scene, offset, folder, true));
+    }
     references.exposure = exposureOf(references.frames.front().mean);
-    for (const Halves& halves : references.frames)
-        for (const float value : halves.mean.values)
-            if (!std::isfinite(value))
-                throw Error("the reference of scene " + study.scenes[scene].name + " holds values that are not finite");
+    for (const auto* list : {&references.frames, &references.finest})
+        for (const Halves& halves : *list)
+            for (const float value : halves.mean.values)
+                if (!std::isfinite(value))
+                    throw Error("the reference of scene " + study.scenes[scene].name + " holds values that are not finite");
     return references;
 }
 
@@ -70,9 +76,12 @@ std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun&
                       .milliseconds = frames[i].report.milliseconds,
                       .passes = costsOf(frames[i].report),
                       .exposure = references.exposure};
-        for (const std::string& metric : study.metrics) {
-            row.metrics[metric] = measureError(metric, frames[i].image, references.frames[i], references.exposure);
-            if (isNoiseFree(metric)) row.noise[metric] = referenceNoise(metric, references.frames[i], references.exposure);
+        for (const Measure& measure : measuresOf(study)) {
+            const Halves& reference = (measure.finest ? references.finest : references.frames)[i];
+            MetricOptions how{.exposure = references.exposure};
+            if (measure.switched) how.mask = references.masks[i];
+            row.metrics[measure.name()] = measureError(measure.metric, frames[i].image, reference, how);
+            if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, reference, how);
         }
         rows.push_back(std::move(row));
     }

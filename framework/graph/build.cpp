@@ -220,7 +220,7 @@ private:
 
     /// An input that has to be wired and that the file doesn't wire, rightly or wrongly.
     bool isFree(std::size_t i, std::size_t p) const {
-        const Port& port = *nodes()[i].pass->ports[p];
+        const Port& port = *graph_.nodes[i].pass->ports[p];
         return port.isInput() && !port.optional && std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
     }
 

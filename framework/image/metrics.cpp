@@ -23,7 +23,9 @@ struct Pair {
     const ImageData& test;
     const ImageData& reference;
     double exposure;
+    const std::vector<bool>& mask;
 
+    bool counts(std::size_t pixel) const { return mask.empty() || mask[pixel]; }
     std::size_t channels() const { return static_cast<std::size_t>(test.channels); }
     std::span<const float> x(std::size_t pixel) const { return {test.values.data() + pixel * channels(), channels()}; }
     std::span<const float> r(std::size_t pixel) const { return {reference.values.data() + pixel * channels(), channels()}; }
@@ -72,7 +74,10 @@ std::vector<double> relativeSquared(const Pair& pair) {
 }
 
 std::vector<double> relativeDifference(const Pair& pair) {
-    const double scale = 1 / meanOf(pair.reference.values);
+    double sum = 0, pixels = 0;
+    for (std::size_t i = 0; i < pair.test.pixelCount(); ++i)
+        if (pair.counts(i)) sum += meanOf(pair.r(i)), ++pixels;
+    const double scale = pixels / sum;
     std::vector<double> differences(pair.test.pixelCount());
     for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = (meanOf(pair.x(i)) - meanOf(pair.r(i))) * scale;
     return differences;
@@ -132,7 +137,10 @@ std::vector<double> errorsOf(const Metric& metric, const ImageData& test, const 
         throw Error("the images cannot be compared: the test has " + shape(test) + ", the reference " + shape(reference));
     }
     if (test.values.empty()) throw Error("the images cannot be compared: they have no pixels");
-    return metric.map({test, reference, options.exposure ? *options.exposure : exposureOf(reference)});
+    if (!options.mask.empty() && options.mask.size() != test.pixelCount())
+        throw Error("the mask has " + std::to_string(options.mask.size()) + " pixels, the images " + std::to_string(test.pixelCount()));
+    if (!options.mask.empty() && std::ranges::find(options.mask, true) == options.mask.end()) throw Error("the mask leaves no pixel");
+    return metric.map({test, reference, options.exposure ? *options.exposure : exposureOf(reference), options.mask});
 }
 
 }  // namespace
@@ -161,7 +169,14 @@ std::string metricAbout(std::string_view name) { return metricNamed(name).about;
 
 double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
     const Metric& metric = metricNamed(name);
-    return metric.pool(errorsOf(metric, test, reference, options));
+    std::vector<double> errors = errorsOf(metric, test, reference, options);
+    if (!options.mask.empty()) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < errors.size(); ++i)
+            if (options.mask[i]) errors[kept++] = errors[i];
+        errors.resize(kept);
+    }
+    return metric.pool(errors);
 }
 
 ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {

@@ -14,6 +14,8 @@ struct MetricOptions {
     /// Factor on both images before an epsilon is added, for the metrics that have one: epsilons suit one brightness only.
     /// Unset, it is exposureOf(reference). The frames of a sequence need one value for all to be comparable.
     std::optional<double> exposure{};
+    /// Pixels that count, row by row: those that are true. Empty: all.
+    std::vector<bool> mask{};
 };
 
 /// The factor that brings the median luminance (Rec. 709) of the pixels above 0 to 0.18; 1 where there are none.
@@ -23,11 +25,11 @@ LODESTIR_API std::vector<std::string> metricNames();
 /// The definition in a sentence, x being the test image and r the reference. Error when there is no such metric.
 LODESTIR_API std::string metricAbout(std::string_view name);
 
-/// The value of a metric; all channels count alike. Where a pixel is NaN, so is the value.
-/// Throws Error when there is no such metric, the images differ in size or channels, or are empty.
+/// The value of a metric; all channels count alike. Where a pixel that counts is NaN, so is the value.
+/// Throws Error when there is no such metric, the images differ in size or channels, are empty, or the mask has another size or leaves none.
 LODESTIR_API double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
 
-/// The error of each pixel (one channel): what the metric averages, before roots or logarithms. Throws as evaluate() does.
+/// The error of each pixel (one channel), in the mask or not: what the metric averages, before roots or logarithms. Throws as evaluate() does.
 LODESTIR_API ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference,
                                 const MetricOptions& options = {});
 

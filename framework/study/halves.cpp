@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <framework/core/error.h>
-#include <framework/image/metrics.h>
 #include <framework/study/halves.h>
 
 #include <utility>
@@ -14,12 +13,12 @@ Halves::Halves(ImageData first, ImageData second) : a(std::move(first)), b(std::
 
 bool isNoiseFree(std::string_view metric) { return metric == "mse" || metric == "relmse"; }
 
-double measureError(std::string_view metric, const ImageData& test, const Halves& reference, double exposure) {
-    return evaluate(metric, test, reference.mean, {.exposure = exposure}) - referenceNoise(metric, reference, exposure);
+double measureError(std::string_view metric, const ImageData& test, const Halves& reference, const MetricOptions& options) {
+    return evaluate(metric, test, reference.mean, options) - referenceNoise(metric, reference, options);
 }
 
-double referenceNoise(std::string_view metric, const Halves& reference, double exposure) {
-    return isNoiseFree(metric) ? evaluate(metric, reference.a, reference.mean, {.exposure = exposure}) : 0;
+double referenceNoise(std::string_view metric, const Halves& reference, const MetricOptions& options) {
+    return isNoiseFree(metric) ? evaluate(metric, reference.a, reference.mean, options) : 0;
 }
 
 }  // namespace lodestir

@@ -2,6 +2,7 @@
 // A reference whose own noise is known, because it was rendered twice.
 #pragma once
 #include <framework/image/image.h>
+#include <framework/image/metrics.h>
 
 #include <string_view>
 
@@ -19,10 +20,10 @@ bool isNoiseFree(std::string_view metric);
 /// The error of `test` (three channels). For "mse" and "relmse" it is the mean of (x - A)(x - B), weighted as the metric weighs (x - M)^2: unbiased for
 /// mse, and for relmse up to the noise of M in the denominator; it may come out negative where the error is far below the reference's noise. As
 /// (x - A)(x - B) = (x - M)^2 - (A - M)^2, it is evaluate(x, M) - evaluate(A, M). Other metrics are evaluate(x, M), noise of M included.
-/// `exposure`: MetricOptions::exposure, one for all that is compared.
-double measureError(std::string_view metric, const ImageData& test, const Halves& reference, double exposure);
+/// `options`: its exposure has to be set, one for all that is compared.
+double measureError(std::string_view metric, const ImageData& test, const Halves& reference, const MetricOptions& options);
 
 /// What measureError() takes out, an unbiased estimate of the error of M itself; 0 for metrics that keep it.
-double referenceNoise(std::string_view metric, const Halves& reference, double exposure);
+double referenceNoise(std::string_view metric, const Halves& reference, const MetricOptions& options);
 
 }  // namespace lodestir

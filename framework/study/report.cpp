@@ -27,12 +27,13 @@ std::string estimateHtml(const Estimate& e) {
     return fmt::format("{:.4g} <span class=\"pm\">± {:.2g}</span>", e.mean, e.halfWidth);
 }
 
-/// The metric as an axis has it, with its unit.
-std::string axisName(const std::string& metric) {
-    if (metric == "mse") return "mse, radiance²";
-    if (metric == "rmse" || metric == "mae") return metric + ", radiance";
-    if (metric == "mape") return "mape, %";
-    return metric == "psnr" ? "psnr, dB" : metric;
+/// A measure as an axis has it, with its unit.
+std::string axisName(const Measure& measure) {
+    const std::string& metric = measure.metric;
+    if (metric == "mse") return measure.name() + ", radiance²";
+    if (metric == "rmse" || metric == "mae") return measure.name() + ", radiance";
+    if (metric == "mape") return measure.name() + ", %";
+    return measure.name() + (metric == "psnr" ? ", dB" : "");
 }
 
 class Report {
@@ -76,6 +77,9 @@ private:
         html += "</p>\n<ul class=\"note\">\n";
         for (const std::string& metric : study_.metrics)
             html += fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(metricAbout(metric)));
+        if (study_.maskSwitched) html += "<li><b>.switched</b>: only where objects are seen that take another level at frame 0 or later</li>\n";
+        if (study_.referenceFinest)
+            html += "<li><b>.finest</b>: against the scene at its finest levels, so that what a coarser level loses counts too</li>\n";
         return html + "</ul>\n";
     }
 
@@ -101,20 +105,20 @@ private:
     std::string table(const std::vector<const Cell*>& cells) const {
         std::string html =
             "<table><tr><th>technique</th><th>frame</th><th>seeds</th><th>ms</th><th>fastest – slowest</th><th>rays a pixel</th>";
-        for (const std::string& metric : study_.metrics) html += fmt::format("<th>{}</th>", escapeHtml(metric));
+        for (const Measure& measure : measuresOf(study_)) html += fmt::format("<th>{}</th>", escapeHtml(measure.name()));
         html += "</tr>\n";
         for (const Cell* cell : cells) {
             html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>",
                                 escapeHtml(labelOf(*cell)), cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest,
                                 cell->rays.mean / pixels_);
-            for (const std::string& metric : study_.metrics)
-                html += cell->metrics.contains(metric) ? fmt::format("<td>{}</td>", estimateHtml(cell->metrics.at(metric))) : "<td></td>";
+            for (const Measure& measure : measuresOf(study_)) {
+                const auto found = cell->metrics.find(measure.name());
+                html += found != cell->metrics.end() ? fmt::format("<td>{}</td>", estimateHtml(found->second)) : "<td></td>";
+            }
             html += "</tr>\n";
         }
         std::string noise;
-        for (const std::string& metric : study_.metrics)
-            if (cells.front()->noise.contains(metric))
-                noise += fmt::format("{}{} {:.3g}", noise.empty() ? "" : ", ", metric, cells.front()->noise.at(metric));
+        for (const auto& [name, value] : cells.front()->noise) noise += fmt::format("{}{} {:.3g}", noise.empty() ? "" : ", ", name, value);
         html += "</table>\n";
         return noise.empty()
                    ? html
@@ -124,17 +128,17 @@ private:
     std::string charts(const std::string& name, const std::vector<const Cell*>& cells) const {
         if (name == "time_by_pass") return timeByPass(cells);
         std::string html;
-        for (const std::string& metric : study_.metrics) {
-            if (name == "error_vs_time") html += errorAlong(metric, cells, true);
-            if (name == "error_vs_rays") html += errorAlong(metric, cells, false);
-            if (name == "error_vs_frame" && study_.measure.size() > 1) html += errorByFrame(metric, cells, false);
-            if (name == "stability" && study_.measure.size() > 1 && isError(metric)) html += errorByFrame(metric, cells, true);
+        for (const Measure& measure : measuresOf(study_)) {
+            if (name == "error_vs_time") html += errorAlong(measure, cells, true);
+            if (name == "error_vs_rays") html += errorAlong(measure, cells, false);
+            if (name == "error_vs_frame" && study_.measure.size() > 1) html += errorByFrame(measure, cells, false);
+            if (name == "stability" && study_.measure.size() > 1 && isError(measure)) html += errorByFrame(measure, cells, true);
         }
         return html;
     }
 
     /// Never negative but for noise, and smaller is better: fit for a logarithmic axis.
-    static bool isError(const std::string& metric) { return metric != "bias" && metric != "psnr"; }
+    static bool isError(const Measure& measure) { return measure.metric != "bias" && measure.metric != "psnr"; }
 
     static ChartSeries& seriesNamed(std::vector<ChartSeries>& all, const std::string& name) {
         const auto found = std::ranges::find(all, name, &ChartSeries::name);
@@ -152,13 +156,14 @@ private:
                 .about = std::move(about)};
     }
 
-    std::string errorAlong(const std::string& metric, const std::vector<const Cell*>& cells, bool time) const {
+    std::string errorAlong(const Measure& measure, const std::vector<const Cell*>& cells, bool time) const {
+        const std::string metric = measure.name();
         LineChart chart{.title = metric + (time ? " against time" : " against rays") +
                                  (study_.measure.size() > 1 ? fmt::format(", frame {}", shown_) : ""),
                         .xLabel = time ? "time of the frame, ms (" + device_ + ")" : "rays a pixel",
-                        .yLabel = axisName(metric),
+                        .yLabel = axisName(measure),
                         .logX = true,
-                        .logY = isError(metric)};
+                        .logY = isError(measure)};
         for (const Cell* cell : cells) {
             if (cell->offset != shown_ || !cell->metrics.contains(metric)) continue;
             const Estimate& e = cell->metrics.at(metric);
@@ -172,13 +177,14 @@ private:
     }
 
     /// `relative`: the error as a multiple of the first measured frame's, which shows what an event does to a technique whatever its level.
-    std::string errorByFrame(const std::string& metric, const std::vector<const Cell*>& cells, bool relative) const {
+    std::string errorByFrame(const Measure& measure, const std::vector<const Cell*>& cells, bool relative) const {
+        const std::string metric = measure.name();
         LineChart chart{.title = relative ? fmt::format("Stability: {} against that of frame {}", metric, study_.measure.front())
                                           : metric + " against the frame",
                         .xLabel = "frame, counted from the event",
-                        .yLabel = relative ? metric + ", ratio" : axisName(metric),
+                        .yLabel = relative ? metric + ", ratio" : axisName(measure),
                         .logX = false,
-                        .logY = isError(metric)};
+                        .logY = isError(measure)};
         const Cell* first = nullptr;
         for (const Cell* cell : cells) {
             if (cell->offset == study_.measure.front()) first = cell;

@@ -2,12 +2,17 @@
 #include <framework/core/log.h>
 #include <framework/graph/scene_node.h>
 #include <framework/image/exr.h>
+#include <framework/scene/level_policy.h>
+#include <framework/shaders/world/primary_hit.h>
+#include <framework/shaders/world/world.h>
 #include <framework/study/content.h>
 #include <framework/study/stage.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
+#include <tuple>
 
 namespace lodestir {
 namespace {
@@ -30,6 +35,26 @@ Source linearSource(const Graph& graph, Source source) {
     return source;
 }
 
+/// Puts a scene's policy of levels back in its place.
+class PolicyKeeper {
+public:
+    explicit PolicyKeeper(Scene& scene) : scene_(scene), policy_(scene.lod) {}
+    ~PolicyKeeper() { scene_.lod = policy_; }
+    PolicyKeeper(const PolicyKeeper&) = delete;
+    PolicyKeeper& operator=(const PolicyKeeper&) = delete;
+
+private:
+    Scene& scene_;
+    LodPolicy policy_;
+};
+
+/// What tells which pixels see which object, and which objects changed their level when.
+constexpr const char* levelsGraph = R"({ "format": 1,
+  "passes": {
+    "lod":  { "type": "lod_select" },
+    "hits": { "type": "visibility", "set": { "pixelCentre": true, "lens": false } } },
+  "show": "hits.depth" })";
+
 /// "trace.spp" of the one pass that has such a parameter.
 std::string samplesParameter(const Graph& graph, const Where& where) {
     std::string name;
@@ -40,6 +65,29 @@ std::string samplesParameter(const Graph& graph, const Where& where) {
         }
     if (name.empty()) throw Error(where, "the reference has no pass with a parameter \"spp\"");
     return name;
+}
+
+bool sameView(const CameraKey& a, const CameraKey& b) {
+    return std::tie(a.position, a.target, a.up, a.fovy, a.aperture, a.focus) == std::tie(b.position, b.target, b.up, b.fovy, b.aperture, b.focus);
+}
+
+/// The first measured frame at which the scene is as it is at `frame`, so that one reference serves for both.
+int firstAlike(const Study& study, const Scene& scene, int frame) {
+    const auto levels = [&](int at) { return scene.lod.mode == LodMode::finest ? std::vector<std::uint32_t>() : scheduledLevels(scene, float(at)); };
+    for (const int offset : study.measure) {
+        const int earlier = study.event + offset;
+        if (earlier >= frame) break;
+        if (sameView(scene.cameraAt(float(earlier)), scene.cameraAt(float(frame))) && scene.nodeMatrices(float(earlier)) == scene.nodeMatrices(float(frame)) &&
+            levels(earlier) == levels(frame))
+            return earlier;
+    }
+    return frame;
+}
+
+template <class T> std::vector<T> valuesOf(const std::vector<std::byte>& bytes) {
+    std::vector<T> values(bytes.size() / sizeof(T));
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+    return values;
 }
 
 /// A --set of ours is at a place of the study file.
@@ -145,7 +193,8 @@ std::string Stage::nameOf(const StudyRun& run) {
     hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
-    for (const std::string& metric : study_.metrics) hash.add(metric + "\n");
+    for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
+    for (const int offset : study_.techniques[run.technique].clear) hash.addValue(offset);
     return hash.hex();
 }
 
@@ -166,29 +215,33 @@ ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) const 
     return image;
 }
 
+bool Stage::isMeasured(int offset) const { return std::ranges::find(study_.measure, offset) != study_.measure.end(); }
+
 std::vector<StagedFrame> Stage::render(const StudyRun& run) {
-    StagedGraph staged = build(study_.techniques[run.technique].graph, run.knobs, run.scene, run.seed);
+    const Technique& technique = study_.techniques[run.technique];
+    StagedGraph staged = build(technique.graph, run.knobs, run.scene, run.seed);
     const std::unique_ptr<Runner> runner = makeRunner(staged, run.scene);
     runner->setFrame(std::uint32_t(study_.event - study_.warmup));
     std::vector<StagedFrame> frames;
     for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
+        if (std::ranges::find(technique.clear, offset) != technique.clear.end()) runner->reset();
         FrameReport report = runner->run();
-        if (std::ranges::find(study_.measure, offset) == study_.measure.end()) continue;
+        if (!isMeasured(offset)) continue;
         frames.push_back({std::move(report), imageOf(*runner, staged)});
     }
     return frames;
 }
 
-Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder) {
+Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, bool finest) {
+    const Hash& sceneHash = sceneContent(sceneIndex);
+    const PolicyKeeper policy(scene_);
+    if (finest) scene_.lod.mode = LodMode::finest;
     StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
     const std::string samplesName = samplesParameter(staged.graph, study_.reference.where);
-    const int frame = study_.event + offset;
-    const Hash content = Hash()
-                             .addValue(sceneContent(sceneIndex))
-                             .addValue(contentOf(staged.graph))
-                             .add(staged.graph.nameOf(staged.port))
-                             .addValue(frame)
-                             .addValue(study_.referenceSamples);
+    const int frame = firstAlike(study_, scene_, study_.event + offset);
+    Hash content;
+    content.addValue(sceneHash).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
+    if (finest) content.add("finest");
     const auto half = [&](std::uint32_t index) {
         const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
         if (std::filesystem::is_regular_file(file)) return readExr(file);
@@ -198,6 +251,32 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder) 
     };
     ImageData a = half(0);
     return {std::move(a), half(1)};
+}
+
+std::vector<std::vector<bool>> Stage::switchedMasks(std::size_t index) {
+    Graph graph = buildGraph(readDescription(Json::parse(levelsGraph, "levels of detail"), study_.file,
+                                             {.scene = std::filesystem::absolute(study_.scenes[index].file), .size = study_.size}),
+                             libraries_);
+    const Source hits = findSource(graph, "hits.hits", {}), changed = findSource(graph, "lod.changed", {});
+    open();
+    Runner runner(*device_, graph, scene(index), RunnerOptions{.rays = rays_, .pinned = {hits, changed}});
+    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
+    std::vector<std::vector<PrimaryHit>> seen;
+    for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
+        runner.run();
+        if (isMeasured(offset)) seen.push_back(valuesOf<PrimaryHit>(runner.readBytes(hits)));
+    }
+    const std::vector<std::uint32_t> changes = valuesOf<std::uint32_t>(runner.readBytes(changed));
+    std::vector<std::vector<bool>> masks;
+    for (const std::vector<PrimaryHit>& frame : seen) {
+        std::vector<bool>& mask = masks.emplace_back();
+        for (const PrimaryHit& hit : frame)
+            mask.push_back(hit.primitive != NONE && hit.instance < changes.size() && changes[hit.instance] > std::uint32_t(study_.event));
+        if (std::ranges::find(mask, true) == mask.end())
+            throw Error(study_.scenes[index].where, "no pixel sees an object that takes another level from the study's event on",
+                        "check \"frames\" against the scene's schedule, or leave \"mask\" out");
+    }
+    return masks;
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.

@@ -61,11 +61,16 @@ public:
 
     /// The measured frames of a run.
     std::vector<StagedFrame> render(const StudyRun& run);
-    /// The reference of a measured frame (an offset from the event), from `folder` where it holds one for the same content.
-    Halves reference(std::size_t scene, int offset, const Path& folder);
+    /// The reference of a measured frame (an offset from the event), from `folder` where it holds one for the same content. `finest`: of the
+    /// scene at its finest levels.
+    Halves reference(std::size_t scene, int offset, const Path& folder, bool finest = false);
+    /// Of each measured frame, the pixels whose centres see an object that takes another level at the event or later, up to the last
+    /// measured frame, by the scene's own policy. Error when there is none.
+    std::vector<std::vector<bool>> switchedMasks(std::size_t scene);
 
 private:
     ImageData renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half);
+    bool isMeasured(int offset) const;
     void open();
 
     const Study& study_;

@@ -43,7 +43,7 @@ public:
             attempt([&] { readSeeds(fields.require("seeds")); });
             study_.metrics = readNames(fields.find("metrics"), "metric", metricNames(), {"relmse", "mse"});
             study_.charts = readNames(fields.find("charts"), "chart", chartNames, chartNames);
-            refuse(fields.find("mask"), "errors inside a mask are not measured", "leave \"mask\" out to measure whole frames");
+            readMask(fields);
         }
         fields.finish();
         problems_.raise();
@@ -57,9 +57,6 @@ private:
         } catch (const Error& error) {
             problems_.add(error);
         }
-    }
-    void refuse(const Json* value, const char* what, const char* hint) {
-        if (value) problems_.add(value->where(), what, hint);
     }
     static bool readFlag(const Json* value, const char* what) { return value && value->asBool(what); }
     static std::int64_t within(const Json& value, const std::string& what, std::int64_t low, std::int64_t high) {
@@ -131,6 +128,20 @@ private:
         });
     }
 
+    /// Frames counted from the event, rising.
+    std::vector<int> readOffsets(const Json& list, const char* key, const char* what) const {
+        std::vector<int> offsets;
+        for (const Json& item : list.items(key)) {
+            const int offset = int(within(item, what, -study_.warmup, maxFrame));
+            if (std::ranges::find(offsets, offset) != offsets.end())
+                throw Error(item.where(), fmt::format("frame {} stands in {} twice", offset, key));
+            offsets.push_back(offset);
+        }
+        if (offsets.empty()) throw Error(list.where(), fmt::format("{} holds no frame", key));
+        std::ranges::sort(offsets);
+        return offsets;
+    }
+
     void readFrames(const Json& value) {
         Fields frames(value, "\"frames\"", problems_);
         frames.integer("warmup", study_.warmup, 0, maxFrame);
@@ -139,17 +150,7 @@ private:
         if (study_.event < study_.warmup)
             problems_.add(value.where(), fmt::format("{} frames of warm-up don't fit before frame {}", study_.warmup, study_.event));
         attempt([&] {
-            const Json* measure = frames.find("measure");
-            if (!measure) return;
-            study_.measure.clear();
-            for (const Json& item : measure->items("\"measure\"")) {
-                const int offset = int(within(item, "a measured frame", -study_.warmup, maxFrame));
-                if (std::ranges::find(study_.measure, offset) != study_.measure.end())
-                    throw Error(item.where(), fmt::format("frame {} is measured twice", offset));
-                study_.measure.push_back(offset);
-            }
-            if (study_.measure.empty()) throw Error(measure->where(), "no frame is measured");
-            std::ranges::sort(study_.measure);
+            if (const Json* measure = frames.find("measure")) study_.measure = readOffsets(*measure, "\"measure\"", "a measured frame");
         });
         frames.finish();
     }
@@ -178,9 +179,16 @@ private:
         return name;
     }
 
+    void readMask(Fields& fields) {
+        std::size_t mask = 0;
+        fields.choice("mask", mask, {"none", "switched"});
+        study_.maskSwitched = mask == 1;
+    }
+
     void readReference(const Json& value) {
         Fields fields(value, "the reference", problems_);
         readGraph(fields, study_.reference);
+        if (study_.kind == StudyKind::error) attempt([&] { study_.referenceFinest = readFlag(fields.find("finest"), "\"finest\""); });
         if (const Json* samples = fields.require("spp"))
             attempt([&] {
                 study_.referenceSamples = int(within(*samples, "the reference's \"spp\"", 2, maxReferenceSamples));
@@ -202,6 +210,8 @@ private:
                 Technique technique{.name = name};
                 readGraph(fields, technique.graph);
                 if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
+                if (const Json* clear = fields.find("clear"))
+                    attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });
                 if (study_.kind == StudyKind::ensemble) {
                     attempt([&] { technique.control = readFlag(fields.find("control"), "\"control\""); });
                     attempt([&] { technique.planted = readFlag(fields.find("planted"), "\"planted\""); });
@@ -256,6 +266,15 @@ private:
 };
 
 }  // namespace
+
+std::vector<Measure> measuresOf(const Study& study) {
+    std::vector<Measure> measures;
+    for (const bool finest : {false, true})
+        for (const bool switched : {true, false})
+            for (const std::string& metric : study.metrics)
+                if ((!finest || study.referenceFinest) && (!switched || study.maskSwitched)) measures.push_back({metric, switched, finest});
+    return measures;
+}
 
 Study loadStudy(const Path& file) { return StudyReader(file).read(); }
 

@@ -38,6 +38,7 @@ struct Technique {
     std::string name;
     StudyGraph graph;
     std::vector<Knob> vary;  ///< every combination is run; charts draw a curve along the last one
+    std::vector<int> clear;    ///< frames after the event before which history is made void
     bool control = false;    ///< of an ensemble: known to be unbiased, so that blaming it blames the study
     bool planted = false;    ///< of an ensemble: known to be biased, to see it caught
 };
@@ -46,6 +47,14 @@ struct StudyScene {
     std::string name;  ///< of the file, without its ending
     Path file;
     Where where;
+};
+
+/// One number that a measured frame is judged by.
+struct Measure {
+    std::string metric;
+    bool switched = false;  ///< only where objects are seen that take another level at the event or later
+    bool finest = false;    ///< against the scene at its finest levels, so that what a level loses counts too
+    std::string name() const { return metric + (switched ? ".switched" : "") + (finest ? ".finest" : ""); }
 };
 
 /// What a study asks: how large errors are, or whether the mean of many runs is right.
@@ -65,11 +74,16 @@ struct Study {
     int referenceSamples = 0;  ///< a pixel, both halves together
     std::vector<Technique> techniques;
     std::vector<std::string> metrics, charts;  ///< none in an ensemble
+    bool maskSwitched = false;                 ///< errors where objects switch levels are measured beside those of the whole frame
+    bool referenceFinest = false;              ///< errors against the finest levels are measured beside those against the levels shown
     double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
 };
 
 /// An ensemble's reference is rendered in a multiple of so many batches, each a run of its own.
 inline constexpr int referenceBatches = 64;
+
+/// What a frame is judged by, in the order of tables.
+std::vector<Measure> measuresOf(const Study& study);
 
 /// Reads a study file; paths start from its folder. Throws Error with everything that is wrong with its form.
 Study loadStudy(const Path& file);

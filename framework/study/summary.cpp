@@ -108,17 +108,17 @@ std::string summaryText(const Study& study, const Summary& summary) {
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
         text += fmt::format("{}\n  {:<{}} {:>5} {:>5} {:>10} {:>10}", study.scenes[scene].name, "technique", width, "frame", "seeds", "ms",
                             "rays/px");
-        for (const std::string& metric : study.metrics) text += fmt::format(" {:>24}", metric + " +- 95 %");
+        for (const Measure& measure : measuresOf(study)) text += fmt::format(" {:>30}", measure.name() + " +- 95 %");
         text += "\n";
         for (const Cell& cell : summary.cells) {
             if (cell.scene != scene || cell.seeds == 0) continue;
             text += fmt::format("  {:<{}} {:>5} {:>5} {:>10.4g} {:>10.4g}", label(cell), width, cell.offset, cell.seeds, cell.milliseconds,
                                 cell.rays.mean / (double(study.size.x) * study.size.y));
-            for (const std::string& metric : study.metrics) {
-                const auto found = cell.metrics.find(metric);
+            for (const Measure& measure : measuresOf(study)) {
+                const auto found = cell.metrics.find(measure.name());
                 if (found == cell.metrics.end()) continue;
                 const Estimate& e = found->second;
-                text += fmt::format(" {:>24}", std::isnan(e.halfWidth) ? fmt::format("{:.4g}", e.mean)
+                text += fmt::format(" {:>30}", std::isnan(e.halfWidth) ? fmt::format("{:.4g}", e.mean)
                                                                        : fmt::format("{:.4g} +- {:.2g}", e.mean, e.halfWidth));
             }
             text += "\n";

@@ -18,4 +18,5 @@ void main() {
     if (argument(0) == uint(mode_screen_error)) level = levelByError(w, instance, uintBitsToFloat(argument(1)), known, last, params.hysteresis);
     levels.at[instance] = level;
     if (!known || level != last) atomicOr(levels.at[w.instanceCount], 1);
+    if (known && level != last && instance < changedCount()) storeChanged(instance, frameIndex() + 1);
 }

@@ -44,7 +44,9 @@ bool mapVertex(World from, World to, bool wanted, uint instance, inout uint prim
     if (before == after || isShown(to, instance, primitive)) return true;
 #if HAS_uv
     if (!wanted) return false;
-    MappedPoint found = mapPoint(to, uv(), to.instances.at[instance].mesh, primitive, coordinates, before, after, params.vertexMapping != vertexMapping_uv_no_matching);
+    Placement placed = placementOf(scene, instance);  // the same there and back, so that tau can be undone
+    mat3 space = params.matching == matching_world ? transpose(mat3(placed.row0, placed.row1, placed.row2)) : mat3(1);
+    MappedPoint found = mapPoint(to, uv(), to.instances.at[instance].mesh, primitive, coordinates, before, after, params.vertexMapping != vertexMapping_uv_no_matching, space);
     primitive = found.primitive;
     barycentrics = found.barycentrics;
     jacobian = found.jacobian;

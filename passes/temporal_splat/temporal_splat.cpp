@@ -11,6 +11,7 @@
 using namespace lodestir;
 
 enum class Suffix { automatic, kept, walked };
+enum class Matching { object, world };
 enum class VertexMapping { triangle, uv, uv_no_matching, primary_only, reconnection_only };
 
 struct TemporalSplat final : Pass {
@@ -43,6 +44,8 @@ struct TemporalSplat final : Pass {
     Param<bool>                withBackup{this, "withBackup", true, "a path that reprojection brings stands in where no path lands; the history's confidence is halved between both"};
     Param<VertexMapping>       vertexMapping{this, "vertexMapping", VertexMapping::uv, {"triangle", "uv", "uv_no_matching", "primary_only", "reconnection_only"},
                                              "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle has it; the first hit alone; x_k alone"};
+    Param<Matching>            matching{this, "matching", Matching::object, {"object", "world"},
+                                        "where points of one texture coordinate are compared by distance: as the mesh was made, or as this frame places it (which differs where a scale isn't uniform)"};
     Param<Suffix>              suffix{this, "suffix", Suffix::automatic, {"automatic", "kept", "walked"},
                                       "what follows the reconnection vertex: walked anew where anything but the camera changed since last frame, always kept (biased where things change), always walked anew"};
     PassThrough                offReservoirs{this, reservoirs, reservoirsOut};

@@ -104,5 +104,15 @@ TEST(Metrics, RefuseWhatCannotBeCompared) {
     EXPECT_EQ(refusal("relsme", makeImage(1, 1, 1), makeImage(1, 1, 1)), "unknown metric \"relsme\"; did you mean \"relmse\"?");
 }
 
+TEST(Metrics, OnlyTheMaskCounts) {
+    const ImageData x = gray({1, 2, 9}), r = gray({1, 1, 3});
+    const MetricOptions left{.exposure = 1, .mask = {true, true, false}};
+    EXPECT_DOUBLE_EQ(evaluate("mse", x, r, left), 0.5);
+    EXPECT_DOUBLE_EQ(evaluate("bias", x, r, left), 0.5) << "the mean of the reference is taken in the mask, too";
+    EXPECT_DOUBLE_EQ(evaluate("mse", x, r, {.mask = {true, true, true}}), evaluate("mse", x, r));
+    EXPECT_THROW(evaluate("mse", x, r, {.mask = {true}}), Error);
+    EXPECT_THROW(evaluate("mse", x, r, {.mask = {false, false, false}}), Error);
+}
+
 }  // namespace
 }  // namespace lodestir

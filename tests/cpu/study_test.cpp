@@ -47,10 +47,10 @@ protected:
     const std::string good = R"({ "format": 1, "about": "two knobs",
       "scenes": ["box.json", "hall.json"], "size": [32, 18], "seeds": 3,
       "frames": { "warmup": 4, "event": 10, "measure": [2, -1, 0] },
-      "reference": { "graph": "graph.json", "spp": 64 },
+      "reference": { "graph": "graph.json", "spp": 64, "finest": true },
       "techniques": { "plain": { "graph": "graph.json", "vary": { "a.mode": ["x", "y"], "a.spp": [1, 2, 4] } },
-                      "other": { "graph": "graph.json", "variant": "v", "set": { "a.spp": 2 } } },
-      "metrics": ["mse"], "charts": ["error_vs_time"] })";
+                      "other": { "graph": "graph.json", "variant": "v", "set": { "a.spp": 2 }, "clear": [1, 0] } },
+      "mask": "switched", "metrics": ["mse"], "charts": ["error_vs_time"] })";
 };
 
 TEST_F(StudyTest, ReadsTheContract) {
@@ -65,6 +65,10 @@ TEST_F(StudyTest, ReadsTheContract) {
     EXPECT_EQ(study.referenceSamples, 64);
     ASSERT_EQ(study.techniques.size(), 2u);
     EXPECT_EQ(study.techniques[1].graph.variant, "v");
+    EXPECT_EQ(study.techniques[1].clear, (std::vector<int>{0, 1}));
+    std::vector<std::string> names;
+    for (const Measure& measure : measuresOf(study)) names.push_back(measure.name());
+    EXPECT_EQ(names, (std::vector<std::string>{"mse.switched", "mse", "mse.switched.finest", "mse.finest"}));
     EXPECT_EQ(study.techniques[1].graph.set.at(0).name, "a.spp");
     EXPECT_EQ(study.techniques[1].graph.graph, folder / "graph.json");
 }
@@ -75,7 +79,7 @@ TEST_F(StudyTest, TellsAllErrorsAtOnceWithPlaces) {
 "seeds": 0, "frames": { "warmup": 4, "event": 2, "measure": [-9] },
 "reference": { "graph": "graph.json", "spp": 63 },
 "techniques": { "plain": { "graph": "graph.json", "set": { "spp": 1, "a.b": [1] }, "vary": { "a.spp": [1, 1] } } },
-"metrics": ["relmes"], "chart": [], "mask": "switched" })");
+"metrics": ["relmes"], "chart": [], "mask": "swiched" })");
     const std::vector<std::string> expected{
         "study.json:2:24: there is no file",
         "study.json:2:54: the height must be 1..16384, not 0",
@@ -87,7 +91,7 @@ TEST_F(StudyTest, TellsAllErrorsAtOnceWithPlaces) {
         "study.json:5:107: \"a.spp\" takes 1 twice",
         "study.json:6:13: unknown metric \"relmes\"; did you mean \"relmse\"?",
         "study.json:6:24: ",
-        "study.json:6:45: errors inside a mask are not measured; leave \"mask\" out to measure whole frames"};
+        "study.json:6:45: "};
     for (std::size_t i = 0; i < std::max(said.size(), expected.size()); ++i)
         EXPECT_TRUE(i < said.size() && i < expected.size() && said[i].starts_with(expected[i]))
             << "said: " << (i < said.size() ? said[i] : "nothing") << "\nexpected: " << (i < expected.size() ? expected[i] : "nothing");
@@ -182,10 +186,10 @@ TEST(Halves, TheNoiseOfTheReferenceIsTakenOut) {
     for (int i = 0; i < 40; ++i) {
         const Halves halves(noisy(truth, referenceSigma, random), noisy(truth, referenceSigma, random));
         const ImageData test = noisy(truth, sigma, random);
-        errors.push_back(measureError("mse", test, halves, 1));
-        relative.push_back(measureError("relmse", test, halves, 1));
+        errors.push_back(measureError("mse", test, halves, {.exposure = 1}));
+        relative.push_back(measureError("relmse", test, halves, {.exposure = 1}));
         naive.push_back(evaluate("mse", test, halves.mean));
-        floors.push_back(referenceNoise("mse", halves, 1));
+        floors.push_back(referenceNoise("mse", halves, {.exposure = 1}));
         // The definition itself.
         double sum = 0;
         for (std::size_t k = 0; k < test.values.size(); ++k)
@@ -212,13 +216,13 @@ TEST(Halves, AnErrorIsWhatItIs) {
     const Halves halves(truth, truth);
     ImageData brighter = truth;
     for (float& value : brighter.values) value += 0.25f;
-    EXPECT_NEAR(measureError("mse", brighter, halves, 1), 0.0625, 1e-6);
-    EXPECT_EQ(measureError("mse", truth, halves, 1), 0);
-    EXPECT_NEAR(measureError("mae", brighter, halves, 1), 0.25, 1e-6);
+    EXPECT_NEAR(measureError("mse", brighter, halves, {.exposure = 1}), 0.0625, 1e-6);
+    EXPECT_EQ(measureError("mse", truth, halves, {.exposure = 1}), 0);
+    EXPECT_NEAR(measureError("mae", brighter, halves, {.exposure = 1}), 0.25, 1e-6);
     EXPECT_FALSE(isNoiseFree("mae"));
     ImageData broken = truth;
     broken.values[5] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(std::isnan(measureError("mse", broken, halves, 1))) << "a broken pixel is seen";
+    EXPECT_TRUE(std::isnan(measureError("mse", broken, halves, {.exposure = 1}))) << "a broken pixel is seen";
     EXPECT_THROW(Halves(truth, makeImage(2, 2, 3)), Error);
 }
 

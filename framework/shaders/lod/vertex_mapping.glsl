@@ -23,8 +23,9 @@ float twiceUvArea(World w, uint primitive) {
 vec3 restPosition(World w, uint primitive, vec2 barycentrics) { return pointOn(w, cornersOf(w, primitive), barycentrics).position; }
 
 /// Partner of the triangle `primitive` among `to`; NONE: it has none. Algorithm 1: the closest pair of both sets is taken out again and
-/// again; of equal distances the first pair in order of the finer level's triangles, then of the coarser one's.
-uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromIsFiner) {
+/// again; of equal distances the first pair in order of the finer level's triangles, then of the coarser one's. `space`
+/// is applied to ways before their lengths are compared.
+uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromIsFiner, mat3 space) {
     uint takenFrom = 0u, takenTo = 0u;
     uint pairs = min(from.count, to.count);
     for (uint round = 0u; round < pairs; ++round) {
@@ -35,7 +36,7 @@ uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromI
             for (uint i = 0u; i < inner; ++i) {
                 uint a = fromIsFiner ? o : i, b = fromIsFiner ? i : o;
                 if ((takenFrom >> a & 1u) != 0u || (takenTo >> b & 1u) != 0u) continue;
-                vec3 way = restPosition(w, from.primitives[a], from.barycentrics[a]) - restPosition(w, to.primitives[b], to.barycentrics[b]);
+                vec3 way = space * (restPosition(w, from.primitives[a], from.barycentrics[a]) - restPosition(w, to.primitives[b], to.barycentrics[b]));
                 float squared = dot(way, way);
                 if (squared >= least) continue;
                 least = squared;
@@ -51,18 +52,24 @@ uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromI
 }
 
 /// tau of a point of `mesh`: triangle `primitive` of level `from`, texture coordinate uv, to level `to`. `matching` false: only where both
-/// levels have one triangle there. Both Worlds of a shift have the same meshes; w is either.
-MappedPoint mapPoint(World w, UvIndex index, uint mesh, uint primitive, vec2 uv, uint from, uint to, bool matching) {
+/// levels have one triangle there. Both Worlds of a shift have the same meshes; w is either. `space`: mat3(1) compares distances in the mesh's own
+/// space; a way there and back needs the same one.
+MappedPoint mapPoint(World w, UvIndex index, uint mesh, uint primitive, vec2 uv, uint from, uint to, bool matching, mat3 space) {
     MappedPoint none = MappedPoint(NONE, vec2(0.0), 0.0);
     UvFound here = uvLookup(w, index, mesh, from, uv), there = uvLookup(w, index, mesh, to, uv);
     if (here.count == 0u || there.count == 0u) return none;
     uint partner;
     if (matching) {
-        partner = matchGreedily(w, here, there, primitive, from < to);
+        partner = matchGreedily(w, here, there, primitive, from < to, space);
     } else {
         partner = here.count == 1u && there.count == 1u && here.primitives[0] == primitive ? 0u : NONE;
     }
     if (partner == NONE) return none;
     float areaHere = twiceUvArea(w, primitive), areaThere = twiceUvArea(w, there.primitives[partner]);
     return MappedPoint(there.primitives[partner], there.barycentrics[partner], areaHere / areaThere);
+}
+
+/// The same with distances in the mesh's own space.
+MappedPoint mapPoint(World w, UvIndex index, uint mesh, uint primitive, vec2 uv, uint from, uint to, bool matching) {
+    return mapPoint(w, index, mesh, primitive, uv, from, to, matching, mat3(1.0));
 }
