@@ -143,7 +143,7 @@ public:
         // Compared with last frame's value, which is the other copy where there is one: an equal value is no change.
         const bool same = memory.version > 0 && std::memcmp((memory.copies[0] == memory.copies[1] ? memory.now() : memory.last()).mapped(), value.data(), value.size()) == 0;
         std::memcpy(target, value.data(), value.size());
-        memory.keep[std::size_t(memory.current)] = std::move(keep);
+        memory.keep[std::size_t(memory.current)] = withInputs(std::move(keep));
         if (!same) ++memory.version;
     }
 
@@ -156,6 +156,18 @@ private:
         const int resource = s_.plan_.resourceOf(node_, numberOf(port));
         if (resource < 0) throw Error("port \"" + std::string(port.name) + "\" is not made by this pass");
         return s_.memories_->at(std::size_t(resource));
+    }
+    /// A struct may point to what the node's own inputs of this frame point to (a World with other levels): that lives as long. What came from last
+    /// frame doesn't, or every frame would keep all before it.
+    std::shared_ptr<const void> withInputs(std::shared_ptr<const void> own) const {
+        auto kept = std::make_shared<std::vector<std::shared_ptr<const void>>>(1, std::move(own));
+        for (const auto& source : s_.graph_.nodes[std::size_t(node_)].inputs) {
+            const int resource = source && !source->prev ? s_.plan_.resourceOf(source->node, source->port) : -1;
+            if (resource < 0) continue;
+            const PortMemory& memory = s_.memories_->at(std::size_t(resource));
+            if (const auto& keep = memory.keep[std::size_t(memory.current)]) kept->push_back(keep);
+        }
+        return kept;
     }
     /// What one pass records is seen by what it records next.
     void separate() {

@@ -51,7 +51,7 @@ std::uint32_t addUvTree(UvTrees& trees, const MeshLevel& level, std::span<const 
         const glm::uvec3 corners = level.triangles[order[i]];
         const glm::vec2 a = level.uv0[corners.x], b = level.uv0[corners.y], c = level.uv0[corners.z], e = b - a, f = c - a;
         const float area = std::abs(e.x * f.y - e.y * f.x);
-        if (!(area > 1e-20f) || !std::isfinite(area)) continue;
+        if (!(area > 0) || !std::isfinite(area)) continue;
         triangles.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), firstPrimitive + std::uint32_t(i)});
     }
     if (triangles.empty()) return NONE;

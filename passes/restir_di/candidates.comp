@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Candidates of this frame, light samples and one BSDF sample, merged with last frame's light point. Visibility is left to the end: it is no
 // part of the target (Bitterli et al. 2020, Spatiotemporal Reservoir Resampling, section 3).
+//
+// A BSDF sample finds only lights that are seen. Where one is hidden light samples have to stand for all of it, or a neighbour that sees it would
+// inherit too little: so the light sample that is kept is asked whether it is seen before it is weighed against the BSDF sample.
 #version 460
 #include "pass.glsl"
 #include "light_target.glsl"
@@ -8,8 +11,12 @@
 
 struct Path {
     Ray ray;
+    bool asksLight;      // the ray goes to the light sample that was kept, not along the BSDF sample
+    LightSample light;   // that sample
+    float bsdfPdf;       // with which the BSDF finds it where it is seen
     BsdfSample next;
-    Ris ris;
+    Ray onward;          // along it
+    Ris lights, ris;     // of light samples alone; of what they and the BSDF sample give
     LightReservoir kept;
     vec3 mirrored;
     uvec2 decisions;
@@ -20,13 +27,14 @@ World scene = world();
 uint pathItems() { return 1; }
 World pathWorld(uint item) { return scene; }
 
-// Offers a point of weight w; pHat is its target here.
-void offer(inout Path p, LightPoint point, float pHat, float w, float u) {
-    if (risAdd(p.ris, w, u)) p.kept = LightReservoir(point.light, point.uv, 0, 0, pHat);
+bool startBsdf(inout Path p) {
+    p.asksLight = false;
+    p.ray = p.onward;
+    return p.next.pdf > 0 && p.next.weight != vec3(0);
 }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    p.ris = risStart();
+    p.lights = p.ris = risStart();
     p.kept = LightReservoir(NONE, vec2(0), 0, 0, 0);
     p.mirrored = vec3(0);
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
@@ -41,23 +49,34 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         if (light.radianceOverPdf == vec3(0)) continue;
         float pdf;
         float sent = luminance(bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf);
-        float share = light.delta ? 1 : misWeight(count * light.pdf, pdf);
-        offer(p, light.point, sent * pointDensity(light), sent * share / count, random1(p.decisions, i, RANDOM_FREE));
+        if (!risAdd(p.lights, sent / count, random1(p.decisions, i, RANDOM_FREE))) continue;
+        p.kept = LightReservoir(light.point.light, light.point.uv, 0, 0, sent * pointDensity(light));
+        p.light = light;
+        p.bsdfPdf = pdf;
     }
     p.next = bsdfSample(l.b, l.wo, random3(seed, 1, RANDOM_BSDF));
-    p.ray = spawnRay(w, l.s, p.next.wi);
-    return p.next.pdf > 0 && p.next.weight != vec3(0);
+    p.onward = spawnRay(w, l.s, p.next.wi);
+    if (p.lights.wSum <= 0) return startBsdf(p);
+    p.asksLight = true;
+    p.ray = shadowRay(w, l.s, p.light);
+    return true;
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
-    anyHit = false;
-    purpose = RAYS_CONTINUE;
+    anyHit = p.asksLight;
+    purpose = p.asksLight ? RAYS_NEE : RAYS_CONTINUE;
     return p.ray;
 }
 
+// What the light samples give, all in one: they are as many times likelier to find a point than one of them.
+void takeLight(inout Path p, bool seen) {
+    float share = seen && !p.light.delta ? misWeight(float(params.candidates) * p.light.pdf, p.bsdfPdf) : 1;
+    risAdd(p.ris, p.lights.wSum * share, 0);
+}
+
 // The light that the BSDF sample has found.
-bool pathStep(inout Path p, World w, Hit hit) {
-    vec3 direction = p.ray.direction, radiance, left = vec3(1);
+void takeBsdf(inout Path p, World w, Hit hit) {
+    vec3 direction = p.ray.direction, radiance;
     LightPoint point = LightPoint(w.environmentLight, environmentUv(w, direction));
     float pdfLight, perPoint = 1;  // steradians per measure of the point
     if (hit.primitive == NONE) {
@@ -74,10 +93,19 @@ bool pathStep(inout Path p, World w, Hit hit) {
     vec3 sent = p.next.weight * radiance;
     if (p.next.delta || pdfLight == 0) {  // no light sample finds it
         p.mirrored = sent;
-        return false;
+        return;
     }
     float share = misWeight(p.next.pdf, float(params.candidates) * pdfLight);
-    offer(p, point, luminance(sent) * p.next.pdf * perPoint, luminance(sent) * share, random1(p.decisions, uint(params.candidates), RANDOM_FREE));
+    if (risAdd(p.ris, luminance(sent) * share, random1(p.decisions, uint(params.candidates), RANDOM_FREE)))
+        p.kept = LightReservoir(point.light, point.uv, 0, 0, luminance(sent) * p.next.pdf * perPoint);
+}
+
+bool pathStep(inout Path p, World w, Hit hit) {
+    if (p.asksLight) {
+        takeLight(p, hit.primitive == NONE);
+        return startBsdf(p);
+    }
+    takeBsdf(p, w, hit);
     return false;
 }
 

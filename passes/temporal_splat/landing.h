@@ -22,6 +22,7 @@ struct Landing {
 struct Origins {
     float scattered;
     float gathered;
+    float kept;  // 1: what the pixel's centre sees was there last frame, on the level shown then; 0: it has no history to be splatted
 };
 
 LODESTIR_SHARED_END

@@ -31,7 +31,7 @@ World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 float capped(Reservoir r) { return cappedConfidence(confidence(r), params.cap); }
 
-uint pathItems() { return !historyValid() ? 0 : params.withBackup ? 4 : 2; }
+uint pathItems() { return !historyValid() ? 0 : params.backup > 0 ? 4 : 2; }
 World pathWorld(uint item) {
     if ((item & 1) == 0) return scene;
     return worldPrev();
@@ -58,6 +58,14 @@ bool mapVertex(World from, World to, bool wanted, uint instance, inout uint prim
 
 bool mapsPrimary() { return params.vertexMapping != vertexMapping_triangle && params.vertexMapping != vertexMapping_reconnection_only; }
 bool mapsReconnection() { return params.vertexMapping != vertexMapping_triangle && params.vertexMapping != vertexMapping_primary_only; }
+
+// Whether what the pixel's centre sees could be found last frame. It tells how much of the confidence of last frame is left to a pixel, and asks
+// nothing of the samples, as confidence must not.
+bool keepsFirstHit(PrimaryHit centre) {
+    if (centre.primitive == NONE || !historyValid()) return true;
+    float jacobian;
+    return mapVertex(scene, worldPrev(), mapsPrimary(), centre.instance, centre.primitive, centre.barycentrics, uvOn(scene, cornersOf(scene, centre.primitive), centre.barycentrics, 0), jacobian);
+}
 
 // tau of x_k, where it is a surface.
 bool mapReconnection(World from, World to, inout Reservoir path, SampleHit hit, out float jacobian) {
@@ -90,7 +98,7 @@ void begin(inout Path p, ivec2 pixel) {
     p.before = pixelBefore(pixel, motion(pixel));
     p.hasBefore = inside(p.before);
     p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, worldPrev()));
-    p.origins = Origins(0, 0);
+    p.origins = Origins(0, 0, keepsFirstHit(hits(place(pixel))) ? 1 : 0);
 }
 
 // Takes in what the item's shift has given.
@@ -107,11 +115,11 @@ void finish(inout Path p, ivec2 pixel, uint item) {
             storeShiftedSamples(place(pixel), p.shift.hit);
         } else if (good) {
             landing.target = place(pixel);
-            storeBackup(place(pixel), path);
-            storeBackupSamples(place(pixel), p.shift.hit);
+            storeGathered(place(pixel), path);
+            storeGatheredSamples(place(pixel), p.shift.hit);
         }
         if (item == SCATTER) storeLandings(place(pixel), landing);
-        else storeBackups(place(pixel), landing);
+        else storeGatherings(place(pixel), landing);
         return;
     }
     float from = good ? p.confidence * pHatFromReverse(target(p.shift.path), p.shift.jacobian) : 0;
@@ -171,11 +179,11 @@ void pathEnd(Path p, World w, ivec2 pixel) {
     Landing nowhere = Landing(NONE, 0, 0, 0, 0);
     if (items == 0) {
         storeLandings(place(pixel), nowhere);
-        p.origins = Origins(0, 0);
+        p.origins = Origins(0, 0, 0);
     } else {
         finish(p, pixel, items - 1);
     }
-    if (items < 4) storeBackups(place(pixel), nowhere);
+    if (items < 4) storeGatherings(place(pixel), nowhere);
     storeOrigins(place(pixel), p.origins);
 }
 

@@ -12,13 +12,13 @@
 #include "restir/ris.glsl"
 #include "base/random.glsl"
 
-// m of a path of last frame: `from` its confidence times pHatFrom, `own` this pixel's confidence times p^.
-float pastMis(float from, float own, bool two) { return two ? 0.5 * balanceMis(0.5 * from, 0.5 * own) : balanceMis(from, own); }
+// m of a path of last frame, made by a technique with so large a share: `from` its confidence times pHatFrom, `own` this pixel's confidence times p^.
+float pastMis(float share, float from, float own) { return share * balanceMis(from, own); }
 
 // m of the own path.
-float ownMis(float own, Origins o, bool two) {
+float ownMis(float own, Origins o, float backup) {
     float scattered = o.scattered > 0 ? balanceMis(own, o.scattered) : 1, gathered = o.gathered > 0 ? balanceMis(own, o.gathered) : 1;
-    return two ? 0.5 * (scattered + gathered) : scattered;
+    return mix(scattered, gathered, backup);
 }
 
 // The list of a pixel in order of its entries, so that the image doesn't depend on how threads ran.
@@ -39,33 +39,33 @@ void main() {
     ivec2 before = pixelBefore(p, motion(p));
     bool hasBefore = historyValid() && inside(before);
     float inherited = hasBefore ? cappedConfidence(confidence(history(pixelIndex(before))), params.cap) : 0;
-    bool two = params.withBackup && inherited > 0;
+    float backup = inherited > 0 ? params.backup : 0;  // hangs on confidence alone, so each path of the pixel finds the same
     float mine = confidence(own);
     uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
 
     Ris ris = risStart();
-    risAdd(ris, resamplingWeight(historyValid() ? ownMis(mine * target(own), origins(i), two) : 1, target(own), own.W, 1), 0);
+    risAdd(ris, resamplingWeight(historyValid() ? ownMis(mine * target(own), origins(i), backup) : 1, target(own), own.W, 1), 0);
     sortList(start, count);
     for (uint k = 0; k < count; ++k) {
         uint source = lists(start + k);
         Landing landing = landings(source);
         Reservoir path = shifted(source);
-        float m = pastMis(landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path), two);
+        float m = pastMis(1 - backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
         if (!risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, k, RANDOM_FREE))) continue;
         kept = path;
         keptHit = shiftedSamples(source);
     }
-    Landing landing = backups(i);
-    if (two && landing.target == i) {
-        Reservoir path = backup(i);
-        float m = pastMis(landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path), true);
+    Landing landing = gatherings(i);
+    if (backup > 0 && landing.target == i) {
+        Reservoir path = gathered(i);
+        float m = pastMis(backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
         if (risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, count, RANDOM_FREE + 1))) {
             kept = path;
-            keptHit = backupSamples(i);
+            keptHit = gatheredSamples(i);
         }
     }
     kept.W = contributionWeight(ris, target(kept));
-    setConfidence(kept, mine + inherited);
+    setConfidence(kept, mine + inherited * mix(origins(i).kept, 1, backup));
     storeReservoirs(i, kept);
     storeSamples(i, keptHit);
     storeLanded(p, float(count));

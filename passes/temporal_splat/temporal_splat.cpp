@@ -31,17 +31,17 @@ struct TemporalSplat final : Pass {
     Out<Image>                 landed{this, "landed", "paths of last frame that landed in the pixel", Format::r32f};
     Scratch<Buffer<Reservoir>> shifted{this, "shifted", "each path of last frame where it lands", Count::perPixel()};
     Scratch<Buffer<SampleHit>> shiftedSamples{this, "shiftedSamples", "where each of these begins", Count::perPixel()};
-    Scratch<Buffer<Reservoir>> backup{this, "backup", "the path that reprojection brings, its Jacobian as confidence", Count::perPixel()};
-    Scratch<Buffer<SampleHit>> backupSamples{this, "backupSamples", "where each of these begins", Count::perPixel()};
+    Scratch<Buffer<Reservoir>> gathered{this, "gathered", "the path that reprojection brings", Count::perPixel()};
+    Scratch<Buffer<SampleHit>> gatheredSamples{this, "gatheredSamples", "where each of these begins", Count::perPixel()};
     Scratch<Buffer<Landing>>   landings{this, "landings", "of each path of last frame", Count::perPixel()};
-    Scratch<Buffer<Landing>>   backups{this, "backups", "of each backup", Count::perPixel()};
+    Scratch<Buffer<Landing>>   gatherings{this, "gatherings", "of each path that reprojection brings", Count::perPixel()};
     Scratch<Buffer<Origins>>   origins{this, "origins", "of each path of this frame", Count::perPixel()};
     Scratch<Buffer<uint>>      counts{this, "counts", "paths that land in each pixel", Count::perPixel()};
     Scratch<Buffer<uint>>      starts{this, "starts", "where each pixel's list begins", Count::perPixel()};
     Scratch<Buffer<uint>>      lists{this, "lists", "pixels whose paths land in one pixel, one list behind another", Count::perPixel()};
     Scratch<Buffer<uint>>      cursor{this, "cursor", "end of the lists", Count::fixed(1)};
     Param<float>               cap{this, "cap", 20, {0, 1000}, "most confidence of a path of last frame, in frames' own paths; 0: no reuse"};
-    Param<bool>                withBackup{this, "withBackup", true, "a path that reprojection brings stands in where no path lands; the history's confidence is halved between both"};
+    Param<float>               backup{this, "backup", 0.5f, {0, 1}, "share of the history's confidence that goes to a path brought by reprojection, which is there where no path lands; 0: splatting alone"};
     Param<VertexMapping>       vertexMapping{this, "vertexMapping", VertexMapping::uv, {"triangle", "uv", "uv_no_matching", "primary_only", "reconnection_only"},
                                              "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle has it; the first hit alone; x_k alone"};
     Param<Matching>            matching{this, "matching", Matching::object, {"object", "world"},

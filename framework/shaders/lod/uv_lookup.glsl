@@ -13,12 +13,15 @@ struct UvFound {
     vec2 barycentrics[UV_BUDGET];
 };
 
-/// Barycentrics of uv in the triangle with these corner coordinates; x < 0 where it lies outside or the triangle has no area in UV. Corners and
-/// edges are inside.
+const float UV_SLIVER = 8e-6;  // least height of a triangle in UV over its largest coordinate or edge: 64 steps of a float
+
+/// Barycentrics of uv in the triangle with these corner coordinates; x < 0 where it lies outside or the triangle is so thin in UV that rounding
+/// decides where in it a coordinate lies. Corners and edges are inside.
 vec2 uvBarycentrics(vec2 a, vec2 b, vec2 c, vec2 uv) {
     vec2 e = b - a, f = c - a, p = uv - a;
     float area = e.x * f.y - e.y * f.x;
-    if (abs(area) < 1e-20) return vec2(-1.0);
+    float edge = max(length(e), length(f)), reach = max(max(abs(a.x), abs(a.y)), edge);
+    if (abs(area) <= UV_SLIVER * reach * edge) return vec2(-1.0);
     vec2 found = vec2(p.x * f.y - p.y * f.x, e.x * p.y - e.y * p.x) / area;
     bool inside = found.x >= 0.0 && found.y >= 0.0 && found.x + found.y <= 1.0;
     return inside ? found : vec2(-1.0);

@@ -27,6 +27,7 @@ struct Shift {
     PathShape shape;
     bool refresh;        // walk anew what follows x_k
     bool known;          // y_1 is in `hit` already: no ray is needed
+    bool carried;        // y_1 is x_1 where it is now, and keeps the texture coordinate it was stored with, so that the way back finds it
     uint state;          // SHIFT_*
     uint vertex;         // j of the last vertex y_j that was reached
     Ray ray;
@@ -49,7 +50,7 @@ void shiftBegin(inout Shift t, Reservoir path, SampleHit base, PrimaryHit first,
     t.refresh = refresh;
     t.state = SHIFT_WALK;
     t.vertex = 0u;
-    t.resumes = false;
+    t.resumes = t.carried = false;
     t.throughput = t.prefix = vec3(1.0);
     t.before = t.pdf = 0.0;
     t.ray = t.onward = ray;
@@ -77,7 +78,7 @@ bool shiftStartAt(inout Shift t, World w, Reservoir path, SampleHit base, Primar
         ray.tMax = reach - clamp(4.0 * positionError(w, ray.origin + way), 1e-5 * reach, 0.5 * reach);
     }
     shiftBegin(t, path, base, first, ray, holdsPath(path) ? jacobian : 0.0, refresh);
-    t.known = true;
+    t.known = t.carried = true;
     t.state = SHIFT_SEE;
     return t.jacobian > 0.0;
 }
@@ -170,7 +171,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - t.from);
         t.throughput *= segmentTransmittance(w, s, distance);
-        if (j == 1u) t.hit.uv = s.uv;
+        if (j == 1u && !t.carried) t.hit.uv = s.uv;
     }
     if (hit.primitive == NONE || j == t.shape.d) {
         meetLight(t, w, rules, hit, s, direction, distance, target);
