@@ -8,24 +8,42 @@ struct Path {
     uvec2 decisions;    // seed of the resampling
     bool known;         // the camera hit is
     PrimaryHit centre;
+    uint trees;
 };
 
 World scene = world();
 
-uint pathItems() { return uint(params.candidates); }
+#if HAS_hits && HAS_worldPrev
+bool switchesLevels() { return historyValid() && scene.levels.at[scene.instanceCount] != 0; }
+bool switched(PrimaryHit h) { return h.primitive != NONE && scene.levels.at[h.instance] != worldPrev().levels.at[h.instance]; }
+uint mostTrees() { return max(uint(params.candidates), uint(params.switchCandidates)); }
+#else
+bool switchesLevels() { return false; }
+bool switched(PrimaryHit h) { return false; }
+uint mostTrees() { return uint(params.candidates); }
+#endif
+
+uint pathItems() { return switchesLevels() ? mostTrees() : uint(params.candidates); }
 
 World pathWorld(uint item) { return scene; }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) treesStart(p.tree);
+    if (item == 0) {
+        treesStart(p.tree);
+        p.trees = uint(params.candidates);
+#if HAS_hits
+        p.centre = hits(pixelIndex(pixel));
+        if (switchesLevels() && switched(p.centre)) p.trees = mostTrees();
+#endif
+    }
+    if (item >= p.trees) return false;
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
-    uvec2 seed = pathSeed(uvec2(pixel), frameIndex() * uint(params.candidates) + item, runSeed());
+    uvec2 seed = pathSeed(uvec2(pixel), frameIndex() * mostTrees() + item, runSeed());
     vec2 place = params.pixelCentre ? vec2(0.5) : filmGrid(random2(seed, 0, RANDOM_FILM));
     vec2 film = filmOf(pixel, place, frameSize()), lens = random2(seed, 0, RANDOM_LENS);
     treeStart(p.tree, w, seed, film, lens);
     p.known = false;
 #if HAS_hits
-    p.centre = hits(pixelIndex(pixel));
     p.known = sameCameraSample(w, p.centre, film, lens);
 #endif
     return true;
@@ -47,7 +65,8 @@ bool pathStep(inout Path p, World w, Hit hit) {
 }
 
 void pathEnd(Path p, World w, ivec2 pixel) {
-    Reservoir r = treesReservoir(p.tree, uint(params.candidates));
+    Reservoir r = treesReservoir(p.tree, p.trees);
+    setConfidence(r, float(p.trees) / float(params.candidates));
     storeReservoirs(pixelIndex(pixel), r);
     if (holdsPath(r)) storeSamples(pixelIndex(pixel), p.tree.keptHit);
     else storeSamples(pixelIndex(pixel), p.tree.first);

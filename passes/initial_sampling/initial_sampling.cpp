@@ -12,12 +12,14 @@ enum class Technique { both, light, bsdf };
 struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres, which save the camera rays where pixelCentre is on", Need::optional};
-    Out<Buffer<Reservoir>> reservoirs{this, "reservoirs", "one path of each pixel with its weight, confidence 1", Count::perPixel()};
+    In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
+    Out<Buffer<Reservoir>> reservoirs{this, "reservoirs", "one path of each pixel with its weight; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
     Out<Buffer<SampleHit>> samples{this, "samples", "where each path begins", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
     Param<int>             bounces{this, "bounces", 4, {0, 30}, "most scatterings of a path; 1 is direct light only"};
     Param<int>             segmentsMin{this, "segmentsMin", 1, {1, 31}, "shorter paths are left to other passes: 2 leaves out light that the camera sees directly, 3 direct light as well"};
     Param<int>             candidates{this, "candidates", 1, {1, 256}, "path trees a pixel and frame"};
+    Param<int>             switchCandidates{this, "switchCandidates", 1, {1, 256}, "path trees instead, in the one frame in which the object that a pixel's centre sees takes another level: there history knows the old one only"};
     Param<int>             lightCandidates{this, "lightCandidates", 1, {1, 256}, "lights that the first vertex chooses its light sample from"};
     Param<Technique>       technique{this, "technique", Technique::both, {"both", "light", "bsdf"},
                                      "how light is found: light sampling and BSDF sampling joined by the balance heuristic, or one of them alone "
