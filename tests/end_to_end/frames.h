@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// A graph in this process, frame by frame, with ports to be read.
+#pragma once
+#include "shift_session.h"
+
+namespace lodestir::test {
+
+/// A graph in this process whose ports are read after each frame.
+class Frames {
+public:
+    Frames(const Path& scene, glm::uvec2 size, const OrderedJson& passes, std::vector<std::string> ports) {
+        SessionOptions options;
+        options.graph = folder_.path / "graph.json";
+        options.dumps = std::move(ports);
+        const OrderedJson graph = {{"format", 1},
+                                   {"scene", scene.string()},
+                                   {"frame", {{"size", {size.x, size.y}}, {"seed", 1}}},
+                                   {"passes", passes},
+                                   {"show", options.dumps.at(0)}};
+        writeFile(options.graph, graph.dump(2));
+        session_ = std::make_unique<Session>(options);
+    }
+    ~Frames() { EXPECT_EQ(session_->device().validationMessages(), std::vector<std::string>{}); }
+
+    const Scene& scene() const { return session_->scene(); }
+    void set(const std::string& parameter, const Json& value) { setParameter(session_->graph(), parameter, value); }
+    /// Starts again at a frame of the scene, without history.
+    void restart(std::uint32_t frame, std::uint32_t seed) {
+        session_->graph().description.seed = seed;
+        session_->runner().reset();
+        session_->runner().setFrame(frame);
+    }
+    void run(int frames = 1) {
+        for (int i = 0; i < frames; ++i) session_->runner().run();
+    }
+    ImageData image(const std::string& port) { return session_->runner().readImage(findSource(session_->graph(), port)); }
+    template <class T> std::vector<T> records(const std::string& port) {
+        const std::vector<std::byte> bytes = session_->runner().readBytes(findSource(session_->graph(), port));
+        std::vector<T> records(bytes.size() / sizeof(T));
+        std::memcpy(records.data(), bytes.data(), bytes.size());
+        return records;
+    }
+
+private:
+    TemporaryFolder folder_;
+    std::unique_ptr<Session> session_;
+};
+
+/// Sum over the finite values, which all of them must be.
+inline double sumOf(const ImageData& image) {
+    double sum = 0;
+    for (const float v : image.values) {
+        EXPECT_TRUE(std::isfinite(v));
+        sum += v;
+    }
+    return sum;
+}
+
+}  // namespace lodestir::test
