@@ -22,7 +22,8 @@ struct CompareArguments {
     std::string test, reference, map;
     std::vector<std::string> metrics;
     bool json = false;
-    double exposure = 0, mapTop = 0;  ///< 0: chosen from the images
+    double exposure = 0, mapTop = 0;    ///< 0: chosen from the images
+    std::vector<double> flipExposures;  ///< start, stop, count; empty: chosen from the reference
 };
 
 /// Opacity is no light: the same picture must have the same error whether it was saved with opacity or without.
@@ -61,6 +62,8 @@ int compare(CompareArguments arguments) {
     const ImageData test = readColor(arguments.test), reference = readColor(arguments.reference);
     MetricOptions options;
     if (arguments.exposure > 0) options.exposure = arguments.exposure;
+    if (const auto& flip = arguments.flipExposures; !flip.empty())
+        options.flip.exposures = FlipExposures{.start = flip[0], .stop = flip[1], .count = static_cast<int>(flip[2])};
 
     Json values = Json::object();
     for (const std::string& name : arguments.metrics) values[name] = Json(evaluate(name, test, reference, options));
@@ -96,8 +99,15 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
         });
     command->add_flag("--json", arguments->json, "print one JSON object");
     command
-        ->add_option("--exposure", arguments->exposure, "factor on both images for metrics with an epsilon (median luminance becomes 0.18)")
+        ->add_option("--exposure", arguments->exposure,
+                     "factor on both images for metrics with an epsilon or a tone curve (median luminance becomes 0.18)")
         ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--flip-exposures", arguments->flipExposures,
+                     "START,STOP,COUNT in stops for flip, to be the same for all frames that are compared (chosen from REFERENCE)")
+        ->delimiter(',')
+        ->expected(3)
+        ->allow_extra_args(false);
     command->add_option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)");
     command->add_option("--map-top", arguments->mapTop, "error shown brightest in a .png map (99 % of the pixels are below)")
         ->check(CLI::PositiveNumber);

@@ -25,10 +25,11 @@ struct StudyOptions {
     bool resume = false;
 };
 
-/// The references of one scene, and the one exposure at which all its errors are measured.
+/// The references of one scene, and the exposures at which all its errors are measured.
 struct SceneReferences {
     std::size_t scene = 0;
     double exposure = 1;
+    FlipExposures flipExposures;
     std::vector<Halves> frames, finest;    ///< parallel to Study::measure; the second where the study asks for it
     std::vector<std::vector<bool>> masks;  ///< likewise
 };
@@ -41,6 +42,7 @@ SceneReferences makeReferences(Stage& stage, const Study& study, std::size_t sce
         if (study.referenceFinest) references.finest.push_back(stage.reference(scene, offset, folder, true));
     }
     references.exposure = exposureOf(references.frames.front().mean);
+    references.flipExposures = flipExposures(references.frames.front().mean);
     for (const auto* list : {&references.frames, &references.finest})
         for (const Halves& halves : *list)
             for (const float value : halves.mean.values)
@@ -78,7 +80,7 @@ std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun&
                       .exposure = references.exposure};
         for (const Measure& measure : measuresOf(study)) {
             const Halves& reference = (measure.finest ? references.finest : references.frames)[i];
-            MetricOptions how{.exposure = references.exposure};
+            MetricOptions how{.exposure = references.exposure, .flip = {.exposures = references.flipExposures}};
             if (measure.switched) how.mask = references.masks[i];
             row.metrics[measure.name()] = measureError(measure.metric, frames[i].image, reference, how);
             if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, reference, how);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Error metrics. A new one is a line in the table: its name, its definition, the error of each pixel, and how pixels become one value.
+// Error metrics. A new one is a line in the table: its name, its definition, the error of each pixel, and how pixels become one value (or,
+// where it is no mean of such errors, the value alone).
 #include <framework/core/error.h>
 #include <framework/image/metrics.h>
 #include <framework/image/srgb.h>
+#include <framework/image/ssim.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <span>
 
@@ -24,6 +27,7 @@ struct Pair {
     const ImageData& reference;
     double exposure;
     const std::vector<bool>& mask;
+    const FlipOptions& viewer;
 
     bool counts(std::size_t pixel) const { return mask.empty() || mask[pixel]; }
     std::size_t channels() const { return static_cast<std::size_t>(test.channels); }
@@ -83,6 +87,18 @@ std::vector<double> relativeDifference(const Pair& pair) {
     return differences;
 }
 
+std::vector<double> flip(const Pair& pair) { return flipHdr(pair.test, pair.reference, pair.viewer); }
+std::vector<double> flipDisplayed(const Pair& pair) { return flipLdr(pair.test, pair.reference, pair.viewer); }
+
+std::vector<double> dissimilarity(const Pair& pair) {
+    std::vector<double> errors = ssimMap(Luma(pair.test, pair.exposure), Luma(pair.reference, pair.exposure));
+    for (double& error : errors) error = 1 - error;
+    return errors;
+}
+double similarityOfScales(const Pair& pair) {
+    return msSsim(Luma(pair.test, pair.exposure), Luma(pair.reference, pair.exposure), pair.mask);
+}
+
 double trimmedMean(const std::vector<double>& errors) {
     if (std::ranges::any_of(errors, [](double error) { return std::isnan(error); })) return std::nan("");  // a broken pixel is no outlier
     std::vector<double> kept = errors;
@@ -94,12 +110,15 @@ double trimmedMean(const std::vector<double>& errors) {
 
 double rootMean(const std::vector<double>& errors) { return std::sqrt(mean(errors)); }
 double decibels(const std::vector<double>& errors) { return -10 * std::log10(mean(errors)); }
+double oneMinusMean(const std::vector<double>& errors) { return 1 - mean(errors); }
 
 struct Metric {
     const char* name;
     const char* about;
     std::vector<double> (*map)(const Pair& pair);
     double (*pool)(const std::vector<double>& errors);
+    int margin = 0;                               ///< pixels nearer to the border are not pooled
+    double (*whole)(const Pair& pair) = nullptr;  ///< the value, of a metric that has neither map nor pool
 };
 
 constexpr Metric table[] = {
@@ -119,6 +138,23 @@ constexpr Metric table[] = {
     {"bias", "mean(x) / mean(r) - 1 over pixels and channels; positive where x is too bright", relativeDifference, mean},
     {"psnr", "-10 log10 of the mse of the images as displayed (clamped to [0, 1], sRGB-encoded, peak 1), dB; infinite for equal images",
      byChannel<squaredDisplayed>, decibels},
+    {"flip",
+     "mean of HDR-FLIP (Andersson et al. 2021), 0 to 1: each pixel's largest LDR-FLIP error over exposures, ACES-tone-mapped, from that "
+     "which shows the brightest pixel of r at 0.85 of white to that which shows the median luminance so (of the pixels above 0 where it is "
+     "0), as many as stops between; 67 pixels per degree",
+     flip, mean},
+    {"flip_ldr",
+     "mean of LDR-FLIP (Andersson et al. 2020), 0 to 1, of the images as displayed (clamped to [0, 1], sRGB-encoded); 67 pixels per degree",
+     flipDisplayed, mean},
+    {"ssim",
+     "mean of SSIM (Wang et al. 2004) over pixels 5 and more from the border, 1 for equal images: Gaussian window of 11 x 11 pixels, sigma "
+     "1.5, C1 = 1e-4, C2 = 9e-4, on the Rec. 709 luma of the images scaled as for relmse, ACES-tone-mapped and sRGB-encoded; NaN below 11 "
+     "pixels a side",
+     dissimilarity, oneMinusMean, ssimMargin},
+    {"ms_ssim",
+     "MS-SSIM (Wang et al. 2003), 1 for equal images: as ssim, on five scales; below 176 pixels a side on those of 11 pixels and more, "
+     "their powers scaled to the same sum, so that only values of one size compare; NaN below 11",
+     nullptr, nullptr, 0, similarityOfScales},
 };
 
 const Metric& metricNamed(std::string_view name) {
@@ -132,7 +168,8 @@ std::string shape(const ImageData& image) {
            " channels";
 }
 
-std::vector<double> errorsOf(const Metric& metric, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
+/// Refers to the arguments.
+Pair pairOf(const ImageData& test, const ImageData& reference, const MetricOptions& options) {
     if (test.width != reference.width || test.height != reference.height || test.channels != reference.channels) {
         throw Error("the images cannot be compared: the test has " + shape(test) + ", the reference " + shape(reference));
     }
@@ -140,7 +177,7 @@ std::vector<double> errorsOf(const Metric& metric, const ImageData& test, const 
     if (!options.mask.empty() && options.mask.size() != test.pixelCount())
         throw Error("the mask has " + std::to_string(options.mask.size()) + " pixels, the images " + std::to_string(test.pixelCount()));
     if (!options.mask.empty() && std::ranges::find(options.mask, true) == options.mask.end()) throw Error("the mask leaves no pixel");
-    return metric.map({test, reference, options.exposure ? *options.exposure : exposureOf(reference), options.mask});
+    return {test, reference, options.exposure ? *options.exposure : exposureOf(reference), options.mask, options.flip};
 }
 
 }  // namespace
@@ -169,18 +206,23 @@ std::string metricAbout(std::string_view name) { return metricNamed(name).about;
 
 double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
     const Metric& metric = metricNamed(name);
-    std::vector<double> errors = errorsOf(metric, test, reference, options);
-    if (!options.mask.empty()) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < errors.size(); ++i)
-            if (options.mask[i]) errors[kept++] = errors[i];
-        errors.resize(kept);
+    const Pair pair = pairOf(test, reference, options);
+    if (metric.whole) return metric.whole(pair);
+    const std::vector<double> errors = metric.map(pair);
+    std::vector<double> pooled;
+    for (int y = metric.margin; y < test.height - metric.margin; ++y) {
+        for (int x = metric.margin; x < test.width - metric.margin; ++x) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(test.width) + static_cast<std::size_t>(x);
+            if (pair.counts(pixel)) pooled.push_back(errors[pixel]);
+        }
     }
-    return metric.pool(errors);
+    return pooled.empty() ? std::numeric_limits<double>::quiet_NaN() : metric.pool(pooled);
 }
 
 ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
-    const std::vector<double> errors = errorsOf(metricNamed(name), test, reference, options);
+    const Metric& metric = metricNamed(name);
+    if (!metric.map) throw Error(std::string(name) + " is no mean over pixels: there is no map of it", "\"ssim\" has one");
+    const std::vector<double> errors = metric.map(pairOf(test, reference, options));
     ImageData map = makeImage(test.width, test.height, 1);
     std::ranges::transform(errors, map.values.begin(), [](double error) { return static_cast<float>(error); });
     return map;

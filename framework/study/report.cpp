@@ -138,7 +138,7 @@ private:
     }
 
     /// Never negative but for noise, and smaller is better: fit for a logarithmic axis.
-    static bool isError(const Measure& measure) { return measure.metric != "bias" && measure.metric != "psnr"; }
+    static bool isError(const Measure& measure) { return measure.metric != "bias" && measure.metric != "psnr" && !measure.metric.ends_with("ssim"); }
 
     static ChartSeries& seriesNamed(std::vector<ChartSeries>& all, const std::string& name) {
         const auto found = std::ranges::find(all, name, &ChartSeries::name);

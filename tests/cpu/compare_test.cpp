@@ -77,6 +77,16 @@ TEST_F(Compare, ExposureCanBeFixed) {
     EXPECT_DOUBLE_EQ(fixed.find("relmse")->asNumber(), 10.25 / 3 / (0.25 + 0.01) / 2);
 }
 
+TEST_F(Compare, FlipExposuresCanBeFixed) {
+    const ImageData x = readImage(folder / "x.exr"), r = readImage(folder / "r.exr");
+    const double expected = evaluate("flip", x, r, {.flip = {.exposures = FlipExposures{-1, 2, 4}}});
+    EXPECT_NE(expected, evaluate("flip", x, r));
+    const Json fixed = Json::parse(compare({"x.exr", "--flip-exposures", "-1,2,4", "r.exr", "--metrics", "flip", "--json"}), "stdout");
+    EXPECT_DOUBLE_EQ(fixed.find("flip")->asNumber(), expected);
+    EXPECT_THROW(compare({"x.exr", "r.exr", "--flip-exposures", "-1,2"}), CLI::ParseError);
+    EXPECT_THROW(compare({"x.exr", "r.exr", "--flip-exposures", "-1,2,0"}), Error);
+}
+
 TEST_F(Compare, MapsAreWritten) {
     compare({"x.exr", "r.exr", "--metrics", "mse", "--map", "map.exr"});
     EXPECT_FLOAT_EQ(readImage(folder / "map.exr").at(0, 0, 0), 10.25f / 3);

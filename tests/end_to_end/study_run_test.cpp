@@ -107,5 +107,39 @@ TEST_F(StudyRunTest, WrongStudiesAreRefusedBeforeAnythingRuns) {
     EXPECT_EQ(study("out", {"--shard", "3/2"}).exitCode, 2);
 }
 
+// The cube takes its coarser level at frame 40.
+TEST_F(StudyRunTest, ErrorsWhereLevelsSwitchAndAgainstTheFinest) {
+    const std::string graph = (sourceFolder / "graphs/restir_lod.json").string();
+    OrderedJson json = readJson(folder / "study.json");
+    json.update(OrderedJson{{"scenes", {(sourceFolder / "scenes/cube.json").string()}},
+                            {"frames", {{"warmup", 6}, {"event", 40}, {"measure", {-1, 0}}}},
+                            {"techniques",
+                             {{"ours", {{"graph", graph}, {"variant", "published"}}},
+                              {"cleared", {{"graph", graph}, {"variant", "published"}, {"clear", {0}}}}}},
+                            {"mask", "switched"},
+                            {"metrics", {"mse"}}});
+    json["reference"]["finest"] = true;
+    write("study.json", json);
+    const Output output = study("switch");
+    ASSERT_EQ(output.exitCode, 0) << output.err;
+    std::map<std::string, double> sums;
+    for (const OrderedJson& row : rows("switch/results.jsonl")) {
+        const auto& metrics = row["metrics"];
+        EXPECT_EQ(metrics.size(), 4u);
+        for (const auto& [name, value] : metrics.items()) sums[row["technique"].get<std::string>() + row["frame"].dump() + name] += value.get<double>();
+        // Before the switch all is at its finest; after it, what the finest has and the coarse level hasn't is an error of its own.
+        EXPECT_EQ(metrics["mse"] == metrics["mse.finest"], row["frame"] == -1);
+        EXPECT_NE(metrics["mse"], metrics["mse.switched"]);
+    }
+    EXPECT_EQ(sums["ours-1mse.switched"], sums["cleared-1mse.switched"]) << "cleared only from the switch on";
+    EXPECT_GT(sums["cleared0mse.switched"], 1.5 * sums["ours0mse.switched"]);
+
+    json["frames"]["event"] = 20;
+    write("study.json", json);
+    const Output nothing = study("nothing");
+    EXPECT_EQ(nothing.exitCode, 1);
+    EXPECT_NE(nothing.err.find("no pixel sees an object that takes another level"), std::string::npos) << nothing.err;
+}
+
 }  // namespace
 }  // namespace lodestir::test
