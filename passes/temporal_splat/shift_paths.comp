@@ -31,7 +31,7 @@ World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 float capped(Reservoir r) { return cappedConfidence(confidence(r), params.cap); }
 
-uint pathItems() { return !historyValid() ? 0 : params.backup > 0 ? 4 : 2; }
+uint pathItems() { return !historyValid() || params.cap == 0 ? 0 : params.backup > 0 ? 4 : 2; }
 World pathWorld(uint item) {
     if ((item & 1) == 0) return scene;
     return worldPrev();

@@ -23,9 +23,12 @@ float twiceUvArea(World w, uint primitive) {
 vec3 restPosition(World w, uint primitive, vec2 barycentrics) { return pointOn(w, cornersOf(w, primitive), barycentrics).position; }
 
 /// Partner of the triangle `primitive` among `to`; NONE: it has none. Algorithm 1: the closest pair of both sets is taken out again and
-/// again; of equal distances the first pair in order of the finer level's triangles, then of the coarser one's. `space`
-/// is applied to ways before their lengths are compared.
+/// again; of equal distances the first pair in order of the finer level's triangles, then of the coarser one's.
+/// Distances are those after `space`.
 uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromIsFiner, mat3 space) {
+    vec3 fromAt[UV_BUDGET], toAt[UV_BUDGET];
+    for (uint i = 0u; i < from.count; ++i) fromAt[i] = space * restPosition(w, from.primitives[i], from.barycentrics[i]);
+    for (uint i = 0u; i < to.count; ++i) toAt[i] = space * restPosition(w, to.primitives[i], to.barycentrics[i]);
     uint takenFrom = 0u, takenTo = 0u;
     uint pairs = min(from.count, to.count);
     for (uint round = 0u; round < pairs; ++round) {
@@ -36,7 +39,7 @@ uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromI
             for (uint i = 0u; i < inner; ++i) {
                 uint a = fromIsFiner ? o : i, b = fromIsFiner ? i : o;
                 if ((takenFrom >> a & 1u) != 0u || (takenTo >> b & 1u) != 0u) continue;
-                vec3 way = space * (restPosition(w, from.primitives[a], from.barycentrics[a]) - restPosition(w, to.primitives[b], to.barycentrics[b]));
+                vec3 way = fromAt[a] - toAt[b];
                 float squared = dot(way, way);
                 if (squared >= least) continue;
                 least = squared;
