@@ -3,15 +3,13 @@
 #include <framework/graph/scene_node.h>
 #include <framework/image/exr.h>
 #include <framework/scene/level_policy.h>
-#include <framework/shaders/world/primary_hit.h>
-#include <framework/shaders/world/world.h>
 #include <framework/study/content.h>
 #include <framework/study/stage.h>
+#include <framework/study/switched_masks.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 
 namespace lodestir {
@@ -48,13 +46,6 @@ private:
     LodPolicy policy_;
 };
 
-/// What tells which pixels see which object, and which objects changed their level when.
-constexpr const char* levelsGraph = R"({ "format": 1,
-  "passes": {
-    "lod":  { "type": "lod_select" },
-    "hits": { "type": "visibility", "set": { "pixelCentre": true, "lens": false } } },
-  "show": "hits.depth" })";
-
 /// "trace.spp" of the one pass that has such a parameter.
 std::string samplesParameter(const Graph& graph, const Where& where) {
     std::string name;
@@ -82,12 +73,6 @@ int firstAlike(const Study& study, const Scene& scene, int frame) {
             return earlier;
     }
     return frame;
-}
-
-template <class T> std::vector<T> valuesOf(const std::vector<std::byte>& bytes) {
-    std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
-    return values;
 }
 
 /// A --set of ours is at a place of the study file.
@@ -215,8 +200,6 @@ ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) const 
     return image;
 }
 
-bool Stage::isMeasured(int offset) const { return std::ranges::find(study_.measure, offset) != study_.measure.end(); }
-
 std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     const Technique& technique = study_.techniques[run.technique];
     StagedGraph staged = build(technique.graph, run.knobs, run.scene, run.seed);
@@ -226,7 +209,7 @@ std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
         if (std::ranges::find(technique.clear, offset) != technique.clear.end()) runner->reset();
         FrameReport report = runner->run();
-        if (!isMeasured(offset)) continue;
+        if (!study_.isMeasured(offset)) continue;
         frames.push_back({std::move(report), imageOf(*runner, staged)});
     }
     return frames;
@@ -254,29 +237,8 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
 }
 
 std::vector<std::vector<bool>> Stage::switchedMasks(std::size_t index) {
-    Graph graph = buildGraph(readDescription(Json::parse(levelsGraph, "levels of detail"), study_.file,
-                                             {.scene = std::filesystem::absolute(study_.scenes[index].file), .size = study_.size}),
-                             libraries_);
-    const Source hits = findSource(graph, "hits.hits", {}), changed = findSource(graph, "lod.changed", {});
     open();
-    Runner runner(*device_, graph, scene(index), RunnerOptions{.rays = rays_, .pinned = {hits, changed}});
-    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
-    std::vector<std::vector<PrimaryHit>> seen;
-    for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
-        runner.run();
-        if (isMeasured(offset)) seen.push_back(valuesOf<PrimaryHit>(runner.readBytes(hits)));
-    }
-    const std::vector<std::uint32_t> changes = valuesOf<std::uint32_t>(runner.readBytes(changed));
-    std::vector<std::vector<bool>> masks;
-    for (const std::vector<PrimaryHit>& frame : seen) {
-        std::vector<bool>& mask = masks.emplace_back();
-        for (const PrimaryHit& hit : frame)
-            mask.push_back(hit.primitive != NONE && hit.instance < changes.size() && changes[hit.instance] > std::uint32_t(study_.event));
-        if (std::ranges::find(mask, true) == mask.end())
-            throw Error(study_.scenes[index].where, "no pixel sees an object that takes another level from the study's event on",
-                        "check \"frames\" against the scene's schedule, or leave \"mask\" out");
-    }
-    return masks;
+    return lodestir::switchedMasks({study_, study_.scenes[index], scene(index), libraries_, *device_, rays_});
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.

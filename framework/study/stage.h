@@ -70,7 +70,6 @@ public:
 
 private:
     ImageData renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half);
-    bool isMeasured(int offset) const;
     void open();
 
     const Study& study_;

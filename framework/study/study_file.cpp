@@ -210,9 +210,10 @@ private:
                 Technique technique{.name = name};
                 readGraph(fields, technique.graph);
                 if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
-                if (const Json* clear = fields.find("clear"))
-                    attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });
-                if (study_.kind == StudyKind::ensemble) {
+                if (study_.kind == StudyKind::error) {
+                    if (const Json* clear = fields.find("clear"))
+                        attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });
+                } else {
                     attempt([&] { technique.control = readFlag(fields.find("control"), "\"control\""); });
                     attempt([&] { technique.planted = readFlag(fields.find("planted"), "\"planted\""); });
                     if (technique.control && technique.planted)

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -77,6 +78,8 @@ struct Study {
     bool maskSwitched = false;                 ///< errors where objects switch levels are measured beside those of the whole frame
     bool referenceFinest = false;              ///< errors against the finest levels are measured beside those against the levels shown
     double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
+
+    bool isMeasured(int offset) const { return std::ranges::find(measure, offset) != measure.end(); }
 };
 
 /// An ensemble's reference is rendered in a multiple of so many batches, each a run of its own.

@@ -62,7 +62,7 @@ bool mapsReconnection() { return params.vertexMapping != vertexMapping_triangle 
 // Whether what the pixel's centre sees could be found last frame. It tells how much of the confidence of last frame is left to a pixel, and asks
 // nothing of the samples, as confidence must not.
 bool keepsFirstHit(PrimaryHit centre) {
-    if (centre.primitive == NONE || !historyValid()) return true;
+    if (centre.primitive == NONE) return true;
     float jacobian;
     return mapVertex(scene, worldPrev(), mapsPrimary(), centre.instance, centre.primitive, centre.barycentrics, uvOn(scene, cornersOf(scene, centre.primitive), centre.barycentrics, 0), jacobian);
 }

@@ -44,7 +44,7 @@ void main() {
     uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
 
     Ris ris = risStart();
-    risAdd(ris, resamplingWeight(historyValid() ? ownMis(mine * target(own), origins(i), backup) : 1, target(own), own.W, 1), 0);
+    risAdd(ris, resamplingWeight(ownMis(mine * target(own), origins(i), backup), target(own), own.W, 1), 0);
     sortList(start, count);
     for (uint k = 0; k < count; ++k) {
         uint source = lists(start + k);

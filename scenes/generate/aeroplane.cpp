@@ -7,6 +7,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "backdrop.h"
 #include "glb.h"
 #include "noise.h"
 #include "scenes.h"
@@ -223,15 +224,8 @@ void writePlane(const std::filesystem::path& folder) {
     propeller.add(blades, placed(blade, glm::rotate(glm::mat4(1), 0.5f, {0, 0, 1})));
     glb.addNode(propeller, parked);
 
-    Model table{"table", {}};
-    Mesh top = placed(roundedBox({6.4f, 0.1f, 4.6f}, 0.02f, 3), {0, -0.05f, -0.2f});
-    scaleUv(top, 0.45f / panelSize);
-    table.add(glb.addMaterial(glb.dressed({.name = "walnut"}, paintPanel(walnut(), 21, 1024))), top);
-    glb.addNode(table);
-    Model wall{"wall", {}};
-    wall.add(glb.addMaterial({.name = "plaster", .color = {0.42f, 0.46f, 0.50f}, .roughness = 0.95f}),
-             rectangle({-9, 6, -3.2f}, {18, 0, 0}, {0, -9, 0}));
-    glb.addNode(wall);
+    addTable(glb, {.size = {6.4f, 0.1f, 4.6f}, .edge = 0.02f, .centre = {0, -0.05f, -0.2f}, .grain = 0.45f, .material = "walnut", .wood = walnut(), .seed = 21});
+    addWall(glb, {.name = "plaster", .color = {0.42f, 0.46f, 0.50f}, .roughness = 0.95f}, {-9, 6, -3.2f}, {18, 0, 0}, {0, -9, 0});
     glb.write(folder / "plane.glb");
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "backdrop.h"
 #include "chess_pieces.h"
 #include "glb.h"
 #include "noise.h"
@@ -92,15 +93,8 @@ void writeChessboard(const std::filesystem::path& folder) {
     }
     glb.addNode(board);
 
-    Model table{"table", {}};
-    Mesh top = placed(roundedBox({40, 0.4f, 30}, 0.1f, 3), {0, -0.66f, -3});
-    scaleUv(top, 0.05f / panelSize);
-    table.add(glb.addMaterial(glb.dressed({.name = "oak"}, paintPanel(oak(), 15, 1024))), top);
-    glb.addNode(table);
-    Model wall{"wall", {}};
-    wall.add(glb.addMaterial({.name = "wall", .color = {0.10f, 0.14f, 0.12f}, .roughness = 0.9f}),
-             rectangle({-30, 20, -15}, {60, 0, 0}, {0, -24, 0}));
-    glb.addNode(wall);
+    addTable(glb, {.size = {40, 0.4f, 30}, .edge = 0.1f, .centre = {0, -0.66f, -3}, .grain = 0.05f, .material = "oak", .wood = oak(), .seed = 15});
+    addWall(glb, {.name = "wall", .color = {0.10f, 0.14f, 0.12f}, .roughness = 0.9f}, {-30, 20, -15}, {60, 0, 0}, {0, -24, 0});
     const int glowing = glb.addMaterial({.name = "window", .color = glm::vec3(0), .emission = {17, 15.5f, 13.5f}});
     Model window{"window", {}};
     window.add(glowing, placed(rectangle({0, 0, 0}, {0, 0, -7}, {0, -7, 0}), glm::vec3(-13, 11, 1)));

@@ -2,6 +2,7 @@
 // A glazed block whose six faces wear one chart: a point of the picture is six points of the block, which only their places tell apart.
 #include <cmath>
 
+#include "backdrop.h"
 #include "glb.h"
 #include "noise.h"
 #include "scenes.h"
@@ -87,15 +88,8 @@ void writeCube(const std::filesystem::path& folder) {
     block.add(glb.addMaterial(glb.dressed({.name = "glaze"}, glaze)), cube);
     glb.addNode(block, {.translation = {0, 0.555f, 0}, .rotation = turnY(-14)});
 
-    Model table{"table", {}};
-    Mesh top = placed(roundedBox({3.6f, 0.08f, 2.4f}, 0.02f, 3), {0, -0.04f, -0.1f});
-    scaleUv(top, 0.6f / panelSize);
-    table.add(glb.addMaterial(glb.dressed({.name = "oak"}, paintPanel(oak(), 9, 1024))), top);
-    glb.addNode(table);
-    Model wall{"wall", {}};
-    wall.add(glb.addMaterial({.name = "plaster", .color = {0.52f, 0.48f, 0.43f}, .roughness = 0.95f}),
-             rectangle({-6, 4, -1.6f}, {12, 0, 0}, {0, -6, 0}));
-    glb.addNode(wall);
+    addTable(glb, {.size = {3.6f, 0.08f, 2.4f}, .edge = 0.02f, .centre = {0, -0.04f, -0.1f}, .grain = 0.6f, .material = "oak", .wood = oak(), .seed = 9});
+    addWall(glb, {.name = "plaster", .color = {0.52f, 0.48f, 0.43f}, .roughness = 0.95f}, {-6, 4, -1.6f}, {12, 0, 0}, {0, -6, 0});
     glb.write(folder / "cube.glb");
 }
 

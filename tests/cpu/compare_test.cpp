@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The command that compares two images: what it prints, and what it refuses.
+#include "printed.h"
+
 #include <framework/app/compare_command.h>
 #include <framework/core/error.h>
 #include <framework/core/files.h>
@@ -27,23 +29,10 @@ protected:
 
     /// Parses and runs; returns what was printed.
     std::string compare(std::vector<std::string> arguments) {
-        CLI::App app;
-        std::function<int()> run;
-        addCompare(app, run);
         for (std::string& argument : arguments) {
             if (argument.find('.') != argument.npos && argument[0] != '-' && argument[0] != '0') argument = (folder / argument).string();
         }
-        arguments.insert(arguments.begin(), "compare");
-        std::reverse(arguments.begin(), arguments.end());
-        app.parse(arguments);
-        testing::internal::CaptureStdout();
-        try {
-            EXPECT_EQ(run(), 0);
-        } catch (...) {
-            testing::internal::GetCapturedStdout();
-            throw;
-        }
-        return testing::internal::GetCapturedStdout();
+        return printed(addCompare, "compare", std::move(arguments));
     }
 
     Path folder;

@@ -2,6 +2,7 @@
 // `lodestir lod`: what is written is read back, all else of the model stays, and bad input leaves no file.
 #include "gltf_model.h"
 #include "lod_surface.h"
+#include "printed.h"
 
 #include <framework/app/lod_command.h>
 #include <framework/core/error.h>
@@ -48,23 +49,7 @@ protected:
     }
     Path write() { return model.write(folder / "model.gltf"); }
 
-    /// Parses and runs; returns what was printed.
-    std::string lod(std::vector<std::string> arguments) {
-        CLI::App app;
-        std::function<int()> run;
-        addLod(app, run);
-        arguments.insert(arguments.begin(), "lod");
-        std::reverse(arguments.begin(), arguments.end());
-        app.parse(arguments);
-        testing::internal::CaptureStdout();
-        try {
-            EXPECT_EQ(run(), 0);
-        } catch (...) {
-            testing::internal::GetCapturedStdout();
-            throw;
-        }
-        return testing::internal::GetCapturedStdout();
-    }
+    std::string lod(std::vector<std::string> arguments) { return printed(addLod, "lod", std::move(arguments)); }
     std::string in() const { return (folder / "model.gltf").string(); }
     std::string out() const { return (folder / "out.glb").string(); }
     Scene load() const {

@@ -1,16 +1,46 @@
 // SPDX-License-Identifier: MIT
 // A graph in this process, frame by frame, with ports to be read.
 #pragma once
-#include "shift_session.h"
+#include <framework/app/session.h>
+#include <framework/core/json.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstring>
+#include <string>
+#include <unistd.h>
+#include <vector>
 
 namespace lodestir::test {
+
+using OrderedJson = nlohmann::ordered_json;
+
+inline const Path sourceFolder = LODESTIR_SOURCE_DIR;
+inline Path sceneFile(const std::string& name) { return sourceFolder / "scenes" / (name + ".json"); }
+
+/// A folder that lives as long as this.
+class TemporaryFolder {
+public:
+    TemporaryFolder() {
+        std::string name = testing::TempDir() + "lodestir_frames_XXXXXX";
+        path = ::mkdtemp(name.data());
+    }
+    ~TemporaryFolder() { std::filesystem::remove_all(path); }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    Path path;
+};
 
 /// A graph in this process whose ports are read after each frame.
 class Frames {
 public:
-    Frames(const Path& scene, glm::uvec2 size, const OrderedJson& passes, std::vector<std::string> ports) {
+    /// The first port is shown; `libraries`: extra folders of passes.
+    Frames(const Path& scene, glm::uvec2 size, const OrderedJson& passes, std::vector<std::string> ports, std::vector<Path> libraries = {}) {
         SessionOptions options;
         options.graph = folder_.path / "graph.json";
+        options.passes = std::move(libraries);
         options.dumps = std::move(ports);
         const OrderedJson graph = {{"format", 1},
                                    {"scene", scene.string()},
@@ -25,10 +55,13 @@ public:
     const Scene& scene() const { return session_->scene(); }
     void set(const std::string& parameter, const Json& value) { setParameter(session_->graph(), parameter, value); }
     /// Starts again at a frame of the scene, without history.
-    void restart(std::uint32_t frame, std::uint32_t seed) {
-        session_->graph().description.seed = seed;
+    void restart(std::uint32_t frame) {
         session_->runner().reset();
         session_->runner().setFrame(frame);
+    }
+    void restart(std::uint32_t frame, std::uint32_t seed) {
+        session_->graph().description.seed = seed;
+        restart(frame);
     }
     void run(int frames = 1) {
         for (int i = 0; i < frames; ++i) session_->runner().run();

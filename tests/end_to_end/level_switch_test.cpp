@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a switch of level does to images: reuse across it, on sheets that each have one trouble. vertex_mapping_test.cpp lists them.
-#include "frames.h"
 #include "sheets.h"
+#include "shift_session.h"
 
 #include <framework/shaders/restir/sample_hit.h>
 #include <framework/shaders/world/primary_hit.h>

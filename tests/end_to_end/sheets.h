@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Scenes of sheets with levels, written by the tests themselves.
 #pragma once
+#include "frames.h"
 #include "level_model.h"
-#include "shift_session.h"
 
 namespace lodestir::test {
 

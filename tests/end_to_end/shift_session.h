@@ -1,44 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A graph of reservoir passes in this process: frames, energies of images, and what passes/shift_check measured of its shifts.
 #pragma once
+#include "frames.h"
 #include "statistics.h"
 
 #include <passes/shift_check/shift_check.h>
 
-#include <framework/app/session.h>
-#include <framework/core/json.h>
 #include <framework/shaders/restir/reservoir.h>
 
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
 #include <array>
-#include <cstring>
 #include <map>
-#include <string>
-#include <unistd.h>
-#include <vector>
 
 namespace lodestir::test {
-
-using OrderedJson = nlohmann::ordered_json;
-
-inline const Path sourceFolder = LODESTIR_SOURCE_DIR;
-inline Path sceneFile(const std::string& name) { return sourceFolder / "scenes" / (name + ".json"); }
-
-/// A folder that lives as long as this.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = testing::TempDir() + "lodestir_shift_XXXXXX";
-        path = ::mkdtemp(name.data());
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    Path path;
-};
 
 /// Nodes that graphs of reservoirs are put together from.
 inline OrderedJson hitsNode() {
@@ -75,32 +48,15 @@ struct ShiftSessionSetup {
 
 class ShiftSession {
 public:
-    explicit ShiftSession(const ShiftSessionSetup& setup) {
-        SessionOptions options;
-        options.graph = folder_.path / "graph.json";
-        options.passes = setup.libraries;
-        for (const std::string& name : setup.images) options.dumps.push_back(name + ".color");
-        for (const std::string& name : setup.checks) options.dumps.push_back(name + ".checks");
-        const OrderedJson graph = {{"format", 1},
-                                   {"scene", setup.scene.string()},
-                                   {"frame", {{"size", {setup.size.x, setup.size.y}}, {"seed", 1}}},
-                                   {"passes", setup.passes},
-                                   {"show", options.dumps.at(0).ends_with(".color") ? options.dumps[0] : setup.checks[0] + ".color"}};
-        writeFile(options.graph, graph.dump(2));
-        session_ = std::make_unique<Session>(options);
-    }
-    ~ShiftSession() { EXPECT_EQ(session_->device().validationMessages(), std::vector<std::string>{}); }
+    explicit ShiftSession(const ShiftSessionSetup& setup) : frames_(setup.scene, setup.size, setup.passes, portsOf(setup), setup.libraries) {}
 
-    void set(const std::string& parameter, const Json& value) { setParameter(session_->graph(), parameter, value); }
+    void set(const std::string& parameter, const Json& value) { frames_.set(parameter, value); }
     /// Starts again at a frame of the scene, without history.
-    void restart(std::uint32_t frame) {
-        session_->runner().reset();
-        session_->runner().setFrame(frame);
-    }
-    void frame() { session_->runner().run(); }
+    void restart(std::uint32_t frame) { frames_.restart(frame); }
+    void frame() { frames_.run(); }
     /// Mean luminance of a node's `color`.
     double energy(const std::string& name) {
-        const ImageData image = session_->runner().readImage(findSource(session_->graph(), name + ".color"));
+        const ImageData image = frames_.image(name + ".color");
         double sum = 0;
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x)
@@ -108,16 +64,17 @@ public:
         return sum / (double(image.width) * image.height);
     }
     /// Two records a pixel: see shift_check.
-    std::vector<ShiftCheck> checks(const std::string& name) {
-        const std::vector<std::byte> bytes = session_->runner().readBytes(findSource(session_->graph(), name + ".checks"));
-        std::vector<ShiftCheck> records(bytes.size() / sizeof(ShiftCheck));
-        std::memcpy(records.data(), bytes.data(), bytes.size());
-        return records;
-    }
+    std::vector<ShiftCheck> checks(const std::string& name) { return frames_.records<ShiftCheck>(name + ".checks"); }
 
 private:
-    TemporaryFolder folder_;
-    std::unique_ptr<Session> session_;
+    static std::vector<std::string> portsOf(const ShiftSessionSetup& setup) {
+        std::vector<std::string> ports;
+        for (const std::string& name : setup.images) ports.push_back(name + ".color");
+        for (const std::string& name : setup.checks) ports.push_back(name + ".checks");
+        return ports;
+    }
+
+    Frames frames_;
 };
 
 /// Ways to end a path, which differ in their Jacobians: RC_* of restir/reservoir.glsl.

@@ -22,8 +22,8 @@
 //   switch every frame          images (flicker), images ReusePays
 //   self-occluding              images SelfOccluding, images (hidden)
 //   different normals           images ReusePays
-#include "frames.h"
 #include "sheets.h"
+#include "shift_session.h"
 
 #include <passes/vertex_mapping_check/vertex_mapping_check.h>
 
