@@ -36,7 +36,9 @@ struct Facts {
 template <class T> std::size_t bytesOf(const std::vector<T>& values) { return values.size() * sizeof(T); }
 
 std::size_t bytesOf(const MeshLevel& l) {
-    return bytesOf(l.positions) + bytesOf(l.normals) + bytesOf(l.tangents) + bytesOf(l.uv0) + bytesOf(l.uv1) + bytesOf(l.colors) +
+    std::size_t targets = 0;
+    for (const MorphTarget& t : l.targets) targets += bytesOf(t.positions) + bytesOf(t.normals) + bytesOf(t.tangents);
+    return targets + bytesOf(l.joints) + bytesOf(l.positions) + bytesOf(l.normals) + bytesOf(l.tangents) + bytesOf(l.uv0) + bytesOf(l.uv1) + bytesOf(l.colors) +
            bytesOf(l.triangles) + bytesOf(l.materials);
 }
 

@@ -31,6 +31,7 @@ int componentsOf(int type) {
     case TINYGLTF_TYPE_VEC2: return 2;
     case TINYGLTF_TYPE_VEC3: return 3;
     case TINYGLTF_TYPE_VEC4: return 4;
+    case TINYGLTF_TYPE_MAT4: return 16;
     default: return 0;
     }
 }
@@ -96,7 +97,8 @@ Accessor::Accessor(const GltfFile& file, int index, const std::string& user) : f
     count_ = source_->count;
     if (componentSize_ == 0)
         throw file.error(pointer_ + "/componentType", fmt::format("component type {} is none of glTF's", source_->componentType));
-    if (components_ == 0) throw file.error(pointer_ + "/type", "a matrix cannot be used here");
+    if (components_ == 0 || (components_ == 16 && source_->componentType != TINYGLTF_COMPONENT_TYPE_FLOAT))
+        throw file.error(pointer_ + "/type", "only matrices of 4x4 floats are known");
     elementSize_ = static_cast<std::size_t>(componentSize_ * components_);
 
     if (source_->bufferView >= 0) {

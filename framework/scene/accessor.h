@@ -17,11 +17,11 @@ std::span<const std::byte> bufferViewBytes(const GltfFile& file, int view);
 class Accessor {
 public:
     /// Error (at /accessors/`index`, or at `user` when there is no such accessor) for anything that leaves its buffer view,
-    /// an unknown component type or a matrix type, sparse indices that do not rise or are past the count.
+    /// an unknown component type, a matrix that isn't of 4x4 floats, sparse indices that do not rise or are past the count.
     Accessor(const GltfFile& file, int index, const std::string& user);
 
     std::size_t count() const { return count_; }
-    int components() const { return components_; }           ///< of one element, 1 to 4
+    int components() const { return components_; }           ///< of one element, 1 to 4; 16: a matrix, column by column
     const std::string& pointer() const { return pointer_; }  ///< JSON pointer, for messages
 
     /// count * components numbers; normalised integers become [0, 1] or [-1, 1] (section 3.6.2.2), other integers keep their value.

@@ -25,6 +25,13 @@ glm::vec4 hermite(const glm::vec4* from, const glm::vec4* to, float t, float dur
            duration * (t3 - t2) * to[0];
 }
 
+/// Seconds of the animation at a frame: it repeats.
+float timeAt(const Scene& scene, float frame) {
+    float time = frame * scene.animationSpeed / scene.framesPerSecond;
+    if (scene.animationLength > 0) time = std::fmod(time, scene.animationLength);
+    return time < 0 ? time + scene.animationLength : time;
+}
+
 }  // namespace
 
 glm::mat4 localMatrix(const Node& node) {
@@ -54,11 +61,10 @@ glm::vec4 evaluate(const AnimationChannel& channel, float time) {
 
 std::vector<glm::mat4> Scene::nodeMatrices(float frame) const {
     std::vector<glm::mat4> matrices(nodes.size());
-    float time = frame * animationSpeed / framesPerSecond;
-    if (animationLength > 0) time = std::fmod(time, animationLength);
-    if (time < 0) time += animationLength;
+    const float time = timeAt(*this, frame);
     std::vector<Node> posed = animation.empty() ? std::vector<Node>{} : nodes;
     for (const AnimationChannel& channel : animation) {
+        if (channel.value == AnimatedValue::weight) continue;
         const glm::vec4 value = evaluate(channel, time);
         Node& node = posed[channel.node];
         if (channel.value == AnimatedValue::translation)
@@ -73,6 +79,25 @@ std::vector<glm::mat4> Scene::nodeMatrices(float frame) const {
         matrices[i] = nodes[i].parent == none ? local : matrices[nodes[i].parent] * local;
     }
     return matrices;
+}
+
+bool Scene::deforms() const { return std::ranges::any_of(meshes, &Mesh::deforms); }
+
+glm::mat4 Scene::instanceMatrix(const Instance& instance, const std::vector<glm::mat4>& nodeMatrices) const {
+    return meshes[instance.mesh].skin != none ? glm::mat4(1) : nodeMatrices[instance.node];
+}
+
+std::vector<std::vector<float>> Scene::morphWeights(float frame) const {
+    const float time = timeAt(*this, frame);
+    std::vector<std::vector<float>> weights;
+    for (const Mesh& mesh : meshes) {
+        weights.push_back(mesh.weights);
+        if (mesh.weights.empty()) continue;
+        for (const AnimationChannel& channel : animation)
+            if (channel.value == AnimatedValue::weight && channel.node == mesh.node && channel.target < mesh.weights.size())
+                weights.back()[channel.target] = evaluate(channel, time).x;
+    }
+    return weights;
 }
 
 }  // namespace lodestir

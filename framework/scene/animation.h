@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Poses over time: glTF's interpolations of node transforms.
+// Poses over time: glTF's interpolations of node transforms and of morph weights.
 #pragma once
 #include <framework/scene/scene.h>
 

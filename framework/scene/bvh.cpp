@@ -302,6 +302,51 @@ Bvh buildBvh(const BvhInput& input) {
     return bvh;
 }
 
+BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> triangles, const BvhRange& range, std::span<const PrimitiveRecord> corners,
+                 std::span<const glm::vec3> positions, const Box& box) {
+    Bounds wanted = boundsOfBox(box);
+    if (wanted.empty()) wanted = boundsOfPoint(glm::vec3(0));
+    const Grid grid(wanted);
+    std::vector<Bounds> leaves(range.triangles), inner(range.nodes);
+    parallelFor(range.triangles, 16384, [&](std::size_t begin, std::size_t end) {
+        const glm::dvec3 base(grid.base), scale(grid.scale);
+        for (std::size_t i = begin; i < end; ++i) {
+            const PrimitiveRecord& c = corners[range.firstTriangle + i];
+            const glm::vec3 v0 = positions[c.v0], v1 = positions[c.v1], v2 = positions[c.v2];
+            BvhTriangle& triangle = triangles[range.firstTriangle + i];
+            triangle.v0 = triangle.e1 = triangle.e2 = glm::vec3(0);
+            if (!usable(v0) || !usable(v1) || !usable(v2)) continue;
+            for (const glm::vec3& p : {v0, v1, v2}) leaves[i].add(boundsOfPoint(p));
+            const glm::dvec3 corner(v0);
+            triangle.v0 = (corner - base) / scale;
+            triangle.e1 = (glm::dvec3(v1) - corner) / scale;
+            triangle.e2 = (glm::dvec3(v2) - corner) / scale;
+        }
+    });
+    for (std::size_t n = range.nodes; n-- > 0;) {  // children lie behind their parents
+        BvhNode& node = nodes[range.firstNode + n];
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::uint32_t child = node.dwords[2 * (4 + i) + 1];
+            if (child == bvh_ref::empty) continue;
+            Bounds bounds;
+            if (child < bvh_ref::leaf) {
+                bounds = inner[child - range.firstNode];
+            } else {
+                const std::size_t first = (child & (bvh_ref::masked - 1)) - range.firstTriangle, count = (child >> 28 & 3) + 1;
+                for (std::size_t t = first; t < first + count; ++t) bounds.add(leaves[t]);
+            }
+            std::array<std::uint32_t, 3> quantised{0x0000ffffu, 0x0000ffffu, 0x0000ffffu};
+            if (!bounds.empty())
+                for (int axis = 0; axis < 3; ++axis) quantised[std::size_t(axis)] = grid.quantise(bounds.low[axis], bounds.high[axis], axis);
+            node.dwords[2 * i] = quantised[0];
+            node.dwords[2 * (4 + i)] = quantised[1];
+            node.dwords[2 * i + 1] = quantised[2];
+            inner[n].add(bounds);
+        }
+    }
+    return {grid.base, grid.scale};
+}
+
 Bvh buildTopLevel(std::span<const Box> boxes) {
     std::vector<Reference> references;
     references.reserve(boxes.size());

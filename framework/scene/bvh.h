@@ -54,6 +54,15 @@ struct Box {
     glm::vec3 low{1e30f}, high{-1e30f};
 };
 
+/// Where one BVH lies in arrays that it shares with others (see appendNodes).
+struct BvhRange {
+    std::size_t firstNode = 0, nodes = 0, firstTriangle = 0, triangles = 0;
+};
+/// Object space from a BVH's grid: object = base + scale * grid.
+struct BvhGrid {
+    glm::vec3 base{0}, scale{1};
+};
+
 /// The triangles of one mesh level. All levels of a mesh share one `grid` box (the union of their bounds), because an instance has one
 /// transform into it; a default Box means the level's own bounds. `masks` (per triangle, see BvhTriangle::mask) may be empty.
 struct BvhInput {
@@ -67,6 +76,11 @@ struct BvhInput {
 LODESTIR_API Bvh buildBvh(const BvhInput& input);
 /// The same, kept in the cache folder by content where building takes longer than reading (from 16384 triangles on).
 LODESTIR_API Bvh cachedBvh(const BvhInput& input);
+
+/// Fits a BVH in shared arrays to vertices that moved: its triangles and boxes are made anew, the tree stays as it was built. `corners` has
+/// three vertices per triangle of the shared array. Triangles with a corner that isn't finite can't be hit. Returns the grid made for `box`.
+LODESTIR_API BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> triangles, const BvhRange& range,
+                              std::span<const PrimitiveRecord> corners, std::span<const glm::vec3> positions, const Box& box);
 
 /// How traversal enters an instance of meshes that are built on this grid.
 LODESTIR_API TraceInstance traceInstance(std::uint32_t mesh, glm::vec3 gridBase, glm::vec3 gridScale, const glm::mat4& toWorld);

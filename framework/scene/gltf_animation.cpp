@@ -15,10 +15,13 @@ std::optional<AnimatedValue> animatedValue(const std::string& path) {
     if (path == "translation") return AnimatedValue::translation;
     if (path == "rotation") return AnimatedValue::rotation;
     if (path == "scale") return AnimatedValue::scale;
+    if (path == "weights") return AnimatedValue::weight;
     return std::nullopt;
 }
 
-void readKeys(const GltfFile& file, const tinygltf::AnimationSampler& sampler, const std::string& pointer, AnimationChannel& channel) {
+/// Reads the keys of `targets` morph targets, or of one value where that is 0, as a channel each.
+std::vector<AnimationChannel> readKeys(const GltfFile& file, const tinygltf::AnimationSampler& sampler, const std::string& pointer,
+                                       AnimationChannel channel, std::size_t targets) {
     if (sampler.interpolation == "STEP")
         channel.interpolation = Interpolation::step;
     else if (sampler.interpolation == "CUBICSPLINE")
@@ -37,21 +40,32 @@ void readKeys(const GltfFile& file, const tinygltf::AnimationSampler& sampler, c
         if (i > 0 && channel.times[i] <= channel.times[i - 1])
             throw file.error(pointer + "/input", fmt::format("times must rise, key {} does not", i));
     }
-    const int components = channel.value == AnimatedValue::rotation ? 4 : 3;
-    const std::size_t expected = channel.times.size() * (channel.interpolation == Interpolation::cubic ? 3 : 1);
+    const int components = targets > 0 ? 1 : channel.value == AnimatedValue::rotation ? 4 : 3;
+    const std::size_t channels = std::max<std::size_t>(targets, 1);
+    const std::size_t parts = channel.times.size() * (channel.interpolation == Interpolation::cubic ? 3 : 1);  // keys, or their three parts
     if (output.components() != components)
         throw file.error(pointer + "/output", fmt::format("expected {} components, got {}", components, output.components()));
-    if (output.count() != expected)
+    if (output.count() != parts * channels)
         throw file.error(pointer + "/output",
-                         fmt::format("{} values for {} keys, expected {}", output.count(), channel.times.size(), expected));
+                         fmt::format("{} values for {} keys, expected {}", output.count(), channel.times.size(), parts * channels));
     const std::vector<float> values = output.floats();
-    for (std::size_t i = 0; i < expected; ++i) {
+    std::vector<AnimationChannel> result(channels, channel);
+    for (std::size_t i = 0; i < parts * channels; ++i) {
         glm::vec4 value(0);
         for (int c = 0; c < components; ++c) value[c] = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
         if (!std::isfinite(value.x + value.y + value.z + value.w))
             throw file.error(pointer + "/output", fmt::format("value {} is not finite", i));
-        channel.values.push_back(value);
+        result[i % channels].target = static_cast<std::uint32_t>(i % channels);
+        result[i % channels].values.push_back(value);
     }
+    return result;
+}
+
+/// Morph targets of the mesh of a node of the file.
+std::size_t targetsOf(const tinygltf::Model& model, int node) {
+    const auto mesh = static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(node)].mesh);
+    if (mesh >= model.meshes.size() || model.meshes[mesh].primitives.empty()) return 0;
+    return model.meshes[mesh].primitives[0].targets.size();
 }
 
 }  // namespace
@@ -82,7 +96,12 @@ void loadGltfAnimations(GltfImport& import) {
             }
             const std::uint32_t node = import.nodes[static_cast<std::size_t>(source.target_node)];
             if (node == none) continue;
-            if (scene.nodes[node].matrix) {
+            const std::size_t targets = value == AnimatedValue::weight ? targetsOf(import.file.model, source.target_node) : 0;
+            if (value == AnimatedValue::weight && targets == 0) {
+                import.note(fmt::format("node \"{}\" has no morph targets, so the animation of their weights is ignored", scene.nodes[node].name));
+                continue;
+            }
+            if (scene.nodes[node].matrix && value != AnimatedValue::weight) {
                 import.note(fmt::format("node \"{}\" has a matrix, so its animation is ignored", scene.nodes[node].name));
                 continue;
             }
@@ -90,16 +109,16 @@ void loadGltfAnimations(GltfImport& import) {
                 import.note("animations play together; where two move the same node, the first one counts");
                 continue;
             }
-            AnimationChannel channel{.node = node, .value = *value};
             try {
-                readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)],
-                         fmt::format("/animations/{}/samplers/{}", a, source.sampler), channel);
+                for (AnimationChannel& channel :
+                     readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)],
+                              fmt::format("/animations/{}/samplers/{}", a, source.sampler), {.node = node, .value = *value}, targets)) {
+                    scene.animationLength = std::max(scene.animationLength, channel.times.back());
+                    scene.animation.push_back(std::move(channel));
+                }
             } catch (const Error& error) {
                 import.problems.add(error);
-                continue;
             }
-            scene.animationLength = std::max(scene.animationLength, channel.times.back());
-            scene.animation.push_back(std::move(channel));
         }
     }
 }

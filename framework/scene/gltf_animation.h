@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Animations of a glTF model: channels of the nodes' translations, rotations and scales.
+// Animations of a glTF model: channels of the nodes' translations, rotations, scales and morph weights.
 #pragma once
 #include <framework/scene/gltf_import.h>
 
 namespace lodestir {
 
 /// Appends the channels of all animations, which play together; where two of them move the same value of a node the first one
-/// counts. Channels of nodes outside the scene and of morph weights are left out. Wrong samplers are gathered as problems.
+/// counts. Channels of nodes outside the scene are left out. Wrong samplers are gathered as problems.
 void loadGltfAnimations(GltfImport& import);
 
 }  // namespace lodestir

@@ -19,6 +19,11 @@ struct GltfImport {
     std::uint32_t materialBase = 0;        ///< Scene::materials index of the file's material 0
     std::uint32_t defaultMaterial = none;  ///< of primitives without one, made when first needed
     std::vector<std::uint32_t> nodes;      ///< Scene::nodes index of each node of the file, `none` where it is not in the scene
+    struct Skinned {
+        std::uint32_t mesh;  ///< Scene::meshes index
+        int skin;            ///< of the file
+    };
+    std::vector<Skinned> skinned;          ///< meshes that wait for their skins
     std::set<std::string> noted;           ///< each note is said once
 
     /// Adds a note "file name: text" to the scene.

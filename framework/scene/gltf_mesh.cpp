@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace lodestir {
@@ -54,15 +55,19 @@ private:
             import_.note("primitives without positions are left out");
             return false;
         }
-        if (!source_.targets.empty()) import_.note("morph targets are ignored; meshes keep their base shape");
         return true;
     }
 
     /// An attribute as vectors of V, shorter elements filled from `fill`; empty when the primitive has none.
-    template <class V> std::vector<V> attribute(const char* name, int leastComponents, V fill) {
-        const auto found = source_.attributes.find(name);
-        if (found == source_.attributes.end()) return {};
-        const std::string user = fmt::format("{}/attributes/{}", pointer_, name);
+    template <class V> std::vector<V> attribute(const std::string& name, int leastComponents, V fill) {
+        return attributeOf<V>(source_.attributes, pointer_ + "/attributes", name, leastComponents, fill);
+    }
+    template <class V>
+    std::vector<V> attributeOf(const std::map<std::string, int>& attributes, const std::string& place, const std::string& name,
+                               int leastComponents, V fill) {
+        const auto found = attributes.find(name);
+        if (found == attributes.end()) return {};
+        const std::string user = place + "/" + name;
         const Accessor accessor(import_.file, found->second, user);
         if (accessor.components() < leastComponents || accessor.components() > V::length()) {
             throw import_.file.error(user, fmt::format("{} cannot have {} components", name, accessor.components()));
@@ -94,7 +99,51 @@ private:
             }
         }
         for (glm::vec4& color : level_.colors) color = isFinite(color) ? glm::max(color, 0.0f) : glm::vec4(1);
+        readJoints();
+        readTargets();
     }
+
+    /// Two sets of four joints are read; weights are scaled to sum to 1, which not every file's do.
+    void readJoints() {
+        for (int set = 0; set < 2; ++set) {
+            const auto joints = attribute<glm::vec4>(fmt::format("JOINTS_{}", set), 4, {});
+            const auto weights = attribute<glm::vec4>(fmt::format("WEIGHTS_{}", set), 4, {});
+            if (joints.empty() || weights.empty()) break;
+            level_.joints.resize(level_.positions.size());
+            for (std::size_t v = 0; v < joints.size(); ++v) {
+                for (int i = 0; i < 4; ++i) {
+                    const auto slot = static_cast<std::size_t>(4 * set + i);
+                    level_.joints[v].joints[slot] = static_cast<std::uint16_t>(std::clamp(joints[v][i], 0.0f, 65535.0f));
+                    level_.joints[v].weights[slot] = std::isfinite(weights[v][i]) ? std::max(weights[v][i], 0.0f) : 0.0f;
+                }
+            }
+        }
+        if (source_.attributes.contains("JOINTS_2")) import_.note("vertices follow eight joints at most");
+        for (VertexJoints& v : level_.joints) {
+            const float sum = std::accumulate(v.weights.begin(), v.weights.end(), 0.0f);
+            if (sum > 0)
+                for (float& weight : v.weights) weight /= sum;
+            else
+                v.weights[0] = 1;
+        }
+    }
+
+    void readTargets() {
+        for (std::size_t i = 0; i < source_.targets.size(); ++i) {
+            const std::string place = fmt::format("{}/targets/{}", pointer_, i);
+            MorphTarget& target = level_.targets.emplace_back();
+            const auto read = [&](std::vector<glm::vec3>& values, const char* name) {
+                values = attributeOf<glm::vec3>(source_.targets[i], place, name, 3, {});
+                for (glm::vec3& v : values)
+                    if (!isFinite(v)) v = glm::vec3(0);
+            };
+            read(target.positions, "POSITION");
+            read(target.normals, "NORMAL");
+            read(target.tangents, "TANGENT");
+        }
+    }
+
+    bool deforms() const { return !level_.joints.empty() || !level_.targets.empty(); }
 
     void readTriangles() {
         std::vector<std::uint32_t> indices;
@@ -127,23 +176,19 @@ private:
         }
     }
 
+    /// What is thin now may not stay so when it deforms.
     void dropTriangles() {
         std::size_t thin = 0, infinite = 0;
         std::erase_if(level_.triangles, [&](const glm::uvec3& t) {
             const glm::dvec3 a(level_.positions[t.x]), b(level_.positions[t.y]), c(level_.positions[t.z]);
             if (!isFinite(a) || !isFinite(b) || !isFinite(c)) return ++infinite > 0;
+            if (deforms()) return false;
             const glm::dvec3 e = b - a, f = c - a, g = c - b;
             const double longest = std::max({glm::dot(e, e), glm::dot(f, f), glm::dot(g, g)});
             return !(glm::length(glm::cross(e, f)) > thinnest * longest) && ++thin > 0;
         });
         import_.scene.droppedTriangles += thin + infinite;
         if (infinite > 0) import_.note(fmt::format("{}: {} triangles with vertices that are not finite are left out", pointer_, infinite));
-    }
-
-    template <class T> static void keep(std::vector<T>& values, const std::vector<std::uint32_t>& kept) {
-        if (values.empty()) return;
-        for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];  // kept rises, so nothing is overwritten early
-        values.resize(kept.size());
     }
 
     /// Keeps used vertices in their order: primitives often share one large vertex buffer.
@@ -158,12 +203,7 @@ private:
             kept.push_back(static_cast<std::uint32_t>(v));
         }
         for (glm::uvec3& t : level_.triangles) t = {place[t.x], place[t.y], place[t.z]};
-        keep(level_.positions, kept);
-        keep(level_.normals, kept);
-        keep(level_.tangents, kept);
-        keep(level_.uv0, kept);
-        keep(level_.uv1, kept);
-        keep(level_.colors, kept);
+        gatherVertices(level_, kept);
     }
 
     void shade() {
@@ -172,6 +212,7 @@ private:
         if (level_.normals.empty()) {
             level_.tangents.clear();  // the format says so: tangents without normals mean nothing
             makeFlatNormals(level_);
+            if (deforms()) level_.flatFaces = level_.triangles;
         } else if (repairNormals(level_) > 0) {
             import_.note("normals that were zero or not finite are made from the faces around them");
         }
@@ -208,6 +249,7 @@ void extend(std::vector<T>& values, std::size_t before, std::vector<T> more, std
 void append(MeshLevel& level, MeshLevel part) {
     const std::size_t before = level.positions.size(), count = part.positions.size();
     for (const glm::uvec3& t : part.triangles) level.triangles.push_back(t + static_cast<std::uint32_t>(before));
+    for (const glm::uvec3& t : part.flatFaces) level.flatFaces.push_back(t + static_cast<std::uint32_t>(before));
     level.materials.insert(level.materials.end(), part.materials.begin(), part.materials.end());
     level.positions.insert(level.positions.end(), part.positions.begin(), part.positions.end());
     level.normals.insert(level.normals.end(), part.normals.begin(), part.normals.end());
@@ -216,6 +258,15 @@ void append(MeshLevel& level, MeshLevel part) {
     extend(level.uv0, before, std::move(part.uv0), count, [](std::size_t) { return glm::vec2(0); });
     extend(level.uv1, before, std::move(part.uv1), count, [](std::size_t) { return glm::vec2(0); });
     extend(level.colors, before, std::move(part.colors), count, [](std::size_t) { return glm::vec4(1); });
+    extend(level.joints, before, std::move(part.joints), count, [](std::size_t) { return VertexJoints{.weights = {1}}; });
+    level.targets.resize(std::max(level.targets.size(), part.targets.size()));
+    part.targets.resize(level.targets.size());
+    for (std::size_t i = 0; i < level.targets.size(); ++i) {
+        const auto none = [](std::size_t) { return glm::vec3(0); };
+        extend(level.targets[i].positions, before, std::move(part.targets[i].positions), count, none);
+        extend(level.targets[i].normals, before, std::move(part.targets[i].normals), count, none);
+        extend(level.targets[i].tangents, before, std::move(part.targets[i].tangents), count, none);
+    }
 }
 
 }  // namespace
@@ -239,8 +290,14 @@ void transformLevel(MeshLevel& level, const glm::mat4& matrix) {
     for (glm::vec3& p : level.positions) p = glm::vec3(matrix * glm::vec4(p, 1));
     for (glm::vec3& n : level.normals) n = glm::normalize(normals * n);
     for (glm::vec4& t : level.tangents) t = glm::vec4(glm::normalize(linear * glm::vec3(t)), mirrors ? -t.w : t.w);
+    for (MorphTarget& target : level.targets) {
+        for (glm::vec3& p : target.positions) p = linear * p;
+        for (glm::vec3& n : target.normals) n = normals * n;
+        for (glm::vec3& t : target.tangents) t = linear * t;
+    }
     if (!mirrors) return;
-    for (glm::uvec3& t : level.triangles) std::swap(t.y, t.z);
+    for (auto* triangles : {&level.triangles, &level.flatFaces})
+        for (glm::uvec3& t : *triangles) std::swap(t.y, t.z);
 }
 
 }  // namespace lodestir

@@ -5,6 +5,7 @@
 #include <framework/scene/gltf_hierarchy.h>
 #include <framework/scene/gltf_mesh.h>
 #include <framework/scene/gltf_node.h>
+#include <framework/scene/gltf_skin.h>
 
 #include <fmt/format.h>
 
@@ -58,7 +59,6 @@ public:
         const auto place = static_cast<std::uint32_t>(import_.scene.nodes.size());
         import_.nodes[n] = place;
         import_.scene.nodes.push_back(std::move(node));
-        if (source.skin >= 0) import_.note("skins are ignored; meshes keep their base shape");
         if (source.mesh >= 0)
             addMesh(visit.node, place);
         else if (findExtension(source.extensions, "MSFT_lod"))
@@ -130,10 +130,36 @@ private:
                              std::vector<float>(&placement[0][0], &placement[0][0] + 16));
         }
         const auto known = meshes_.find(key);
-        if (known != meshes_.end()) return known->second;
+        if (known != meshes_.end() && model_.nodes[static_cast<std::size_t>(node)].skin < 0) return known->second;
         const std::uint32_t mesh = buildMesh(node, chain, placements);
+        if (mesh != none && import_.scene.meshes[mesh].deforms()) return mesh;  // each node has a pose of its own
         meshes_.emplace(std::move(key), mesh);
         return mesh;
+    }
+
+    /// Gives the mesh the weights of its morph targets and the skin of its node, or drops what would move it.
+    void addDeformation(int node, Mesh& mesh) {
+        const tinygltf::Node& source = model_.nodes[static_cast<std::size_t>(node)];
+        const std::size_t targets = mesh.levels[0].targets.size();
+        const auto& own = model_.meshes[static_cast<std::size_t>(source.mesh)].weights;
+        const std::vector<double>& weights = source.weights.empty() ? own : source.weights;
+        for (std::size_t i = 0; i < targets; ++i)
+            mesh.weights.push_back(i < weights.size() && std::isfinite(weights[i]) ? static_cast<float>(weights[i]) : 0.0f);
+        mesh.node = import_.nodes[static_cast<std::size_t>(node)];
+        if (source.skin >= 0 && !mesh.levels[0].joints.empty()) {
+            if (static_cast<std::size_t>(source.skin) >= model_.skins.size())
+                throw import_.file.error(fmt::format("/nodes/{}/skin", node),
+                                         fmt::format("there is no skin {}, the file has {}", source.skin, model_.skins.size()));
+            import_.skinned.push_back({static_cast<std::uint32_t>(import_.scene.meshes.size()), source.skin});
+            mesh.skin = 0;  // until the nodes of its joints are there
+        }
+        for (MeshLevel& level : mesh.levels) {
+            level.targets.resize(targets);
+            if (mesh.skin == none) level.joints.clear();
+            if (mesh.skin != none && level.joints.empty()) level.joints.assign(level.positions.size(), {.weights = {1}});
+            if (mesh.deforms()) continue;
+            level.flatFaces.clear();
+        }
     }
 
     std::uint32_t buildMesh(int node, const std::vector<int>& chain, const std::vector<glm::mat4>& placements) {
@@ -156,7 +182,8 @@ private:
                 import_.note(fmt::format("levels of detail beyond {} are left out", maxLevels));
                 break;
             }
-            if (!isIdentity(placements[i])) transformLevel(level, placements[i]);
+            const bool skinned = model_.nodes[static_cast<std::size_t>(node)].skin >= 0 && !level.joints.empty();  // nodes don't move these
+            if (!isIdentity(placements[i]) && !skinned) transformLevel(level, placements[i]);
             mesh.levels.push_back(std::move(level));
             source.push_back(i);
         }
@@ -164,6 +191,7 @@ private:
         const int own = model_.nodes[static_cast<std::size_t>(node)].mesh;
         const std::string& name = model_.meshes[static_cast<std::size_t>(own)].name;
         mesh.name = name.empty() ? fmt::format("mesh {}", own) : name;
+        addDeformation(node, mesh);
         import_.scene.meshes.push_back(std::move(mesh));
         return static_cast<std::uint32_t>(import_.scene.meshes.size() - 1);
     }
@@ -261,6 +289,7 @@ void loadGltfNodes(GltfImport& import, std::uint32_t parent) {
         }
         if (import.nodes[static_cast<std::size_t>(visit.node)] == none) return;  // its children have nothing to hang on
     }
+    loadGltfSkins(import);
 }
 
 }  // namespace lodestir

@@ -43,9 +43,9 @@ float meanEmission(const Scene& scene, const MeshLevel& level, glm::uvec3 triang
     return sum / points + 0.05f * factor;
 }
 
-float triangleArea(const MeshLevel& level, glm::uvec3 t, const glm::mat4& toWorld) {
+float triangleArea(std::span<const glm::vec3> positions, glm::uvec3 t, const glm::mat4& toWorld) {
     const glm::mat3 linear(toWorld);
-    return 0.5f * glm::length(glm::cross(linear * (level.positions[t.y] - level.positions[t.x]), linear * (level.positions[t.z] - level.positions[t.x])));
+    return 0.5f * glm::length(glm::cross(linear * (positions[t.y] - positions[t.x]), linear * (positions[t.z] - positions[t.x])));
 }
 
 LightRecord pointlike(const Light& light, const glm::mat4& toWorld) {
@@ -63,8 +63,8 @@ LightRecord pointlike(const Light& light, const glm::mat4& toWorld) {
 
 }  // namespace
 
-LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const glm::mat4> nodeMatrices,
-                     float sceneRadius) {
+LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const std::span<const glm::vec3>> positions,
+                     const std::vector<glm::mat4>& nodeMatrices, float sceneRadius) {
     constexpr double pi = glm::pi<double>();
     LightList list;
     list.firstLight.assign(scene.instances.size(), NONE);
@@ -84,7 +84,7 @@ LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters,
             record.instance = std::uint32_t(i);
             record.primitive = mesh.primitives[k];
             const Material& material = scene.materials[mesh.materials[k]];
-            const float area = triangleArea(level, mesh.triangles[k], nodeMatrices[instance.node]);
+            const float area = triangleArea(positions[instance.mesh], mesh.triangles[k], scene.instanceMatrix(instance, nodeMatrices));
             power.push_back(pi * area * meanEmission(scene, level, mesh.triangles[k], material) * (material.doubleSided ? 2 : 1));
             kindOf.push_back(triangles);
             list.lights.push_back(record);

@@ -2,6 +2,7 @@
 // Loads a scene and gives it what every scene needs: a camera, a light, a material.
 #include <framework/core/error.h>
 #include <framework/scene/camera.h>
+#include <framework/scene/deformation.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/scene_file.h>
@@ -19,16 +20,19 @@ namespace {
 /// white surface brighter than 0.03; less is a display or a pilot lamp on a model that was meant for a viewer with a light of its own.
 bool hasLight(const Scene& scene) {
     if (!scene.lights.empty()) return true;
-    const std::vector<glm::mat4> matrices = scene.nodeMatrices(0);
+    const Pose pose = poseAt(scene, 0);
     double power = 0;  // over pi
     for (const Instance& instance : scene.instances) {
         const MeshLevel& level = scene.meshes[instance.mesh].levels[0];
-        const glm::mat3 linear(matrices[instance.node]);
+        const auto shines = [&](std::uint32_t material) { return scene.materials[material].emission != glm::vec3(0); };
+        if (std::ranges::none_of(level.materials, shines)) continue;
+        const std::vector<glm::vec3> positions = deform(scene, instance.mesh, 0, pose).positions;
+        const glm::mat3 linear(scene.instanceMatrix(instance, pose.nodes));
         for (std::size_t t = 0; t < level.triangles.size(); ++t) {
             const Material& material = scene.materials[level.materials[t]];
-            if (material.emission == glm::vec3(0)) continue;
+            if (!shines(level.materials[t])) continue;
             const glm::uvec3 v = level.triangles[t];
-            const glm::vec3 normal = glm::cross(linear * (level.positions[v.y] - level.positions[v.x]), linear * (level.positions[v.z] - level.positions[v.x]));
+            const glm::vec3 normal = glm::cross(linear * (positions[v.y] - positions[v.x]), linear * (positions[v.z] - positions[v.x]));
             const float share = material.emissiveMap.texture == none ? 1.0f : 0.25f;  // of the texture that shines, at a guess
             power += 0.5 * glm::length(normal) * share * std::max({material.emission.r, material.emission.g, material.emission.b});
         }
@@ -78,10 +82,12 @@ void focusModelCamera(Scene& scene) {
 
 std::array<glm::vec3, 2> Scene::bounds() const {
     std::array<glm::vec3, 2> result{glm::vec3(1e30f), glm::vec3(-1e30f)};
-    const std::vector<glm::mat4> matrices = nodeMatrices(0);
+    const Pose pose = poseAt(*this, 0);
     for (const Instance& instance : instances) {
-        for (const glm::vec3& position : meshes[instance.mesh].levels[0].positions) {
-            const glm::vec3 p(matrices[instance.node] * glm::vec4(position, 1));
+        const glm::mat4 toWorld = instanceMatrix(instance, pose.nodes);
+        const bool moves = meshes[instance.mesh].deforms();
+        for (const glm::vec3& position : moves ? deform(*this, instance.mesh, 0, pose).positions : meshes[instance.mesh].levels[0].positions) {
+            const glm::vec3 p(toWorld * glm::vec4(position, 1));
             result[0] = glm::min(result[0], p);
             result[1] = glm::max(result[1], p);
         }

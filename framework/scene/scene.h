@@ -58,6 +58,17 @@ struct Material {
     TextureSlot baseColorMap, metallicRoughnessMap, normalMap, occlusionMap, emissiveMap, transmissionMap;
 };
 
+/// What a morph target adds to the vertices of a level at weight 1. Each array is empty or as long as the level's positions.
+struct MorphTarget {
+    std::vector<glm::vec3> positions, normals, tangents;
+};
+
+/// The joints that a vertex follows: places in its mesh's skin, and weights that sum to 1.
+struct VertexJoints {
+    std::array<std::uint16_t, 8> joints{};
+    std::array<float, 8> weights{};
+};
+
 /// The triangles of one mesh at one level of detail. All vertex arrays are empty or as long as `positions`.
 struct MeshLevel {
     std::vector<glm::vec3> positions;
@@ -69,13 +80,26 @@ struct MeshLevel {
     std::vector<std::uint32_t> materials;  ///< of each triangle, index into Scene::materials
     float error = 0;                   ///< measured geometric error against level 0, object units (0 for level 0)
     float coverage = 0;                ///< MSFT_screencoverage: of the screen, down to which the file would show this level; 0: says nothing
+    std::vector<MorphTarget> targets;  ///< as many as its mesh has weights, or none
+    std::vector<VertexJoints> joints;  ///< empty: no skin
+    std::vector<glm::uvec3> flatFaces; ///< triangles whose vertices have the face's normal for want of another, to be made anew in each pose
 };
 
 inline constexpr int maxLevels = 8;
 
+/// Joints that bend a mesh (glTF 2.0, section 3.7.3.3): vertices go through the inverse bind matrix and the matrix of the joint's node.
+struct Skin {
+    std::vector<std::uint32_t> nodes;
+    std::vector<glm::mat4> inverseBind;  ///< one a node
+};
+
 struct Mesh {
     std::string name;
     std::vector<MeshLevel> levels;  ///< finest first, 1..maxLevels
+    std::vector<float> weights;     ///< of the morph targets, while nothing animates them
+    std::uint32_t node = none;      ///< whose animation moves the weights
+    std::uint32_t skin = none;      ///< takes the vertices into the world, whatever its instance's node does
+    bool deforms() const { return skin != none || !weights.empty(); }
 };
 
 /// A node of the hierarchy. Its local matrix is TRS unless `matrix` is given.
@@ -107,13 +131,14 @@ struct Light {
 };
 
 enum class Interpolation : std::uint8_t { step, linear, cubic };
-enum class AnimatedValue : std::uint8_t { translation, rotation, scale };
+enum class AnimatedValue : std::uint8_t { translation, rotation, scale, weight };
 
-/// Keys of one value of one node. `values` has 4 floats a key (xyz0 or quaternion xyzw), 3 * 4 a key for cubic (in-tangent, value,
-/// out-tangent).
+/// Keys of one value of one node. `values` has 4 floats a key (xyz0, quaternion xyzw, or a weight and 000), 3 * 4 a key for cubic
+/// (in-tangent, value, out-tangent).
 struct AnimationChannel {
     std::uint32_t node = 0;
     AnimatedValue value = AnimatedValue::translation;
+    std::uint32_t target = 0;  ///< weight: of which morph target
     Interpolation interpolation = Interpolation::linear;
     std::vector<float> times;  ///< seconds, rising
     std::vector<glm::vec4> values;
@@ -157,6 +182,7 @@ struct Scene {
     Path file;                        ///< scene file or model it came from
     std::string about;
     std::vector<Mesh> meshes;
+    std::vector<Skin> skins;
     std::vector<Material> materials;  ///< at least one
     std::vector<Texture> textures;
     std::vector<Node> nodes;          ///< parents before children
@@ -174,11 +200,16 @@ struct Scene {
     std::size_t droppedTriangles = 0; ///< triangles of the files that were left out: without area, or with a vertex that is not finite
     std::vector<std::string> notes;   ///< what the loader decided: camera framed, sky added, extensions ignored, ...
 
+    bool deforms() const;             ///< whether any mesh does
+    /// Object to world, given those of all nodes: the identity for a mesh whose skin takes it there.
+    LODESTIR_API glm::mat4 instanceMatrix(const Instance& instance, const std::vector<glm::mat4>& nodeMatrices) const;
     /// World matrices of all nodes at a frame.
     LODESTIR_API std::vector<glm::mat4> nodeMatrices(float frame) const;
+    /// Weights of the morph targets of all meshes at a frame.
+    LODESTIR_API std::vector<std::vector<float>> morphWeights(float frame) const;
     /// Camera pose and lens at a frame (position, target, up, fovy, aperture, focus).
     LODESTIR_API CameraKey cameraAt(float frame) const;
-    /// Bounds of all instances' finest levels at frame 0; {1e30, -1e30} when empty.
+    /// Bounds of all instances' finest levels as they stand at frame 0; {1e30, -1e30} when empty.
     LODESTIR_API std::array<glm::vec3, 2> bounds() const;
 };
 

@@ -20,7 +20,20 @@ struct Mark {
 
 Mark markOf(const Scene& scene) { return {scene.nodes.size(), scene.instances.size(), scene.lights.size(), scene.animation.size()}; }
 
-/// Places what a model has added between two marks once more, under another node; meshes and materials are shared.
+/// A mesh that follows nodes, following those `shift` further on.
+std::uint32_t repeatDeforming(Scene& scene, Mesh mesh, std::uint32_t shift) {
+    if (mesh.node != none) mesh.node += shift;
+    if (mesh.skin != none) {
+        Skin skin = scene.skins[mesh.skin];
+        for (std::uint32_t& node : skin.nodes) node += shift;
+        mesh.skin = static_cast<std::uint32_t>(scene.skins.size());
+        scene.skins.push_back(std::move(skin));
+    }
+    scene.meshes.push_back(std::move(mesh));
+    return static_cast<std::uint32_t>(scene.meshes.size() - 1);
+}
+
+/// Places what a model has added between two marks once more, under another node; materials are shared, and meshes that don't deform.
 void repeatModel(Scene& scene, const Mark& begin, const Mark& end, std::uint32_t parent) {
     const auto shift = static_cast<std::uint32_t>(scene.nodes.size() - begin.nodes);
     for (std::size_t i = begin.nodes; i < end.nodes; ++i) {
@@ -36,6 +49,10 @@ void repeatModel(Scene& scene, const Mark& begin, const Mark& end, std::uint32_t
         }
     };
     repeat(scene.instances, begin.instances, end.instances);
+    for (std::size_t i = end.instances - begin.instances; i > 0; --i) {
+        Instance& instance = scene.instances[scene.instances.size() - i];
+        if (scene.meshes[instance.mesh].deforms()) instance.mesh = repeatDeforming(scene, scene.meshes[instance.mesh], shift);
+    }
     repeat(scene.lights, begin.lights, end.lights);
     repeat(scene.animation, begin.animation, end.animation);
 }

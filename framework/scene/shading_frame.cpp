@@ -14,16 +14,6 @@ template <class T> void gather(std::vector<T>& values, const std::vector<std::ui
     values = std::move(result);
 }
 
-/// Vertex i of the level becomes what vertex from[i] was.
-void gatherVertices(MeshLevel& level, const std::vector<std::uint32_t>& from) {
-    gather(level.positions, from);
-    gather(level.normals, from);
-    gather(level.tangents, from);
-    gather(level.uv0, from);
-    gather(level.uv1, from);
-    gather(level.colors, from);
-}
-
 /// Twice the triangle's area along its normal, in double precision: edges of 1e-20 still have a direction.
 glm::dvec3 areaVector(const MeshLevel& level, const glm::uvec3& t) {
     const glm::dvec3 a(level.positions[t.x]), b(level.positions[t.y]), c(level.positions[t.z]);
@@ -88,6 +78,21 @@ glm::vec3 perpendicular(glm::vec3 n) {
                            : std::abs(n.y) < 0.57735f ? glm::vec3(0, 1, 0)
                                                       : glm::vec3(0, 0, 1);
     return glm::normalize(axis - n * glm::dot(n, axis));
+}
+
+void gatherVertices(MeshLevel& level, const std::vector<std::uint32_t>& from) {
+    gather(level.positions, from);
+    gather(level.normals, from);
+    gather(level.tangents, from);
+    gather(level.uv0, from);
+    gather(level.uv1, from);
+    gather(level.colors, from);
+    gather(level.joints, from);
+    for (MorphTarget& target : level.targets) {
+        gather(target.positions, from);
+        gather(target.normals, from);
+        gather(target.tangents, from);
+    }
 }
 
 glm::vec2 transformUv(const TextureSlot& slot, glm::vec2 uv) {

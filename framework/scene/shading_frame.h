@@ -12,6 +12,9 @@ LODESTIR_API glm::vec3 perpendicular(glm::vec3 n);
 /// turns clockwise about the origin of the texture coordinates.
 LODESTIR_API glm::vec2 transformUv(const TextureSlot& slot, glm::vec2 uv);
 
+/// Vertex i of the level becomes what vertex from[i] was; its triangles stay.
+LODESTIR_API void gatherVertices(MeshLevel& level, const std::vector<std::uint32_t>& from);
+
 /// Gives each triangle three vertices of its own with the normal of its face (glTF 2.0, section 3.7.2.1: flat normals).
 LODESTIR_API void makeFlatNormals(MeshLevel& level);
 

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/world.h>
 
-#include <framework/core/log.h>
 #include <framework/scene/alias_table.h>
-#include <framework/scene/bvh.h>
 #include <framework/scene/environment_table.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/light_list.h>
-#include <framework/scene/mesh_bvh.h>
 #include <framework/scene/mipmaps.h>
-#include <framework/scene/pack.h>
 
 #include <glm/gtc/matrix_access.hpp>
 
@@ -91,17 +87,20 @@ CameraRecord cameraRecord(const CameraKey& camera, glm::uvec2 size) {
 
 }  // namespace
 
-/// What never changes. Mesh-level data lies one level after the other.
+/// Positions, normals and boxes on the GPU.
+struct WorldBuilder::Shapes {
+    gpu::Buffer triangles, meshes, positions, vertices;
+};
+
+/// What never changes.
 struct WorldBuilder::Fixed {
-    std::vector<BvhNode> nodes;  // of all mesh levels; kept so that a top level can be set behind them
-    std::vector<Box> bounds, grids;  // of each mesh: box over its levels; grid base and scale
-    std::vector<MeshEmitters> emitters;
-    gpu::Buffer triangles, roots, levels, meshes, primitives, emitterIndices, positions, vertices, materials, textures, texels, environment;
+    gpu::Buffer roots, levels, primitives, emitterIndices, materials, textures, texels, environment;
     std::size_t bytes = 0;
 };
 
-/// What follows the transforms of one frame.
+/// What follows the pose of one frame.
 struct WorldBuilder::Moving {
+    std::shared_ptr<const Shapes> shapes;
     gpu::Buffer nodes, traceInstances, instances, lights;
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
     std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
@@ -114,72 +113,10 @@ struct WorldBuilder::Levels {
     gpu::Buffer buffer;
 };
 
-WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : device_(device), scene_(scene) {
+WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : device_(device), scene_(scene), geometry_(std::make_unique<Geometry>(scene)) {
     auto fixed = std::make_shared<Fixed>();
-    std::vector<BvhTriangle> triangles;
-    std::vector<std::uint32_t> roots(scene.meshes.size() * LEVELS, bvh_ref::empty), emitterIndices;
-    std::vector<LevelRecord> levels(scene.meshes.size() * LEVELS);
-    std::vector<MeshRecord> meshes;
-    std::vector<PrimitiveRecord> primitives;
-    std::vector<glm::vec3> positions;
-    std::vector<VertexRecord> vertices;
-    std::vector<bool> vertexColor(scene.materials.size(), false);
-
-    log::Progress progress("building BVHs", scene.meshes.size());
-    for (std::size_t m = 0; m < scene.meshes.size(); ++m, progress.advance()) {
-        const Mesh& mesh = scene.meshes[m];
-        const Box box = boundsOf(mesh);
-        fixed->bounds.push_back(box);
-        fixed->emitters.emplace_back();
-        Box grid;
-        for (std::size_t l = 0; l < mesh.levels.size(); ++l) {
-            const MeshLevel& level = mesh.levels[l];
-            const Bvh bvh = meshBvh(scene, mesh, l);
-            grid = {bvh.gridBase, bvh.gridScale};
-            const auto firstTriangle = std::uint32_t(triangles.size());
-            const auto firstVertex = std::uint32_t(positions.size());
-            roots[m * LEVELS + l] = appendNodes(bvh, fixed->nodes, firstTriangle);
-            levels[m * LEVELS + l] = {firstTriangle, std::uint32_t(bvh.triangles.size()), level.error};
-            triangles.insert(triangles.end(), bvh.triangles.begin(), bvh.triangles.end());
-            for (std::uint32_t t : bvh.order) {
-                const glm::uvec3 corners = level.triangles[t];
-                const std::uint32_t material = level.materials[t];
-                std::uint32_t emitter = NONE;
-                if (l == 0 && scene.materials[material].emission != glm::vec3(0)) {
-                    MeshEmitters& list = fixed->emitters.back();
-                    emitter = std::uint32_t(list.primitives.size());
-                    list.primitives.push_back(std::uint32_t(primitives.size()));
-                    list.triangles.push_back(corners);
-                    list.materials.push_back(material);
-                }
-                emitterIndices.push_back(emitter);
-                primitives.push_back({firstVertex + corners.x, firstVertex + corners.y, firstVertex + corners.z, material});
-                if (!level.colors.empty()) vertexColor[material] = true;
-            }
-            positions.insert(positions.end(), level.positions.begin(), level.positions.end());
-            for (std::size_t v = 0; v < level.positions.size(); ++v)
-                vertices.push_back({.normal = packNormal(level.normals[v]),
-                                    .tangent = level.tangents.empty() ? 0 : packTangent(level.tangents[v]),
-                                    .uv0 = level.uv0.empty() ? glm::vec2(0) : level.uv0[v],
-                                    .uv1 = level.uv1.empty() ? glm::vec2(0) : level.uv1[v],
-                                    .color = level.colors.empty() ? ~0u : packColor(level.colors[v])});
-        }
-        // Levels that a mesh does not have show its coarsest; a mesh that emits always shows its finest, because the list of
-        // lights is made of that one's triangles.
-        const std::size_t last = fixed->emitters.back().empty() ? mesh.levels.size() - 1 : 0;
-        for (std::size_t l = last + 1; l < LEVELS; ++l) {
-            roots[m * LEVELS + l] = roots[m * LEVELS + last];
-            levels[m * LEVELS + l] = levels[m * LEVELS + last];
-        }
-        const bool empty = box.low.x > box.high.x;
-        meshes.push_back({.center = empty ? glm::vec3(0) : 0.5f * (box.low + box.high),
-                          .radius = empty ? 0 : 0.5f * glm::length(box.high - box.low),
-                          .levels = std::uint32_t(last + 1)});
-        fixed->grids.push_back(grid);
-    }
-
     std::vector<MaterialRecord> materials;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) materials.push_back(materialRecord(scene.materials[i], vertexColor[i]));
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) materials.push_back(materialRecord(scene.materials[i], geometry_->vertexColor[i]));
     std::vector<std::uint32_t> texels;
     std::vector<TextureRecord> textures;
     for (const Texture& texture : scene.textures) {
@@ -193,58 +130,70 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
         fixed->bytes += buffer.size();
         return buffer;
     };
-    triangles.emplace_back();  // packets load 64 bytes at a time: the last triangle's load must end in readable memory
-    fixed->triangles = upload(triangles, "triangles");
-    fixed->roots = upload(roots, "roots");
-    fixed->levels = upload(levels, "mesh levels");
-    fixed->meshes = upload(meshes, "meshes");
-    fixed->primitives = upload(primitives, "primitives");
-    fixed->emitterIndices = upload(emitterIndices, "emitters");
-    fixed->positions = upload(positions, "positions");
-    fixed->vertices = upload(vertices, "vertices");
+    fixed->roots = upload(geometry_->roots, "roots");
+    fixed->levels = upload(geometry_->levels, "mesh levels");
+    fixed->primitives = upload(geometry_->primitives, "primitives");
+    fixed->emitterIndices = upload(geometry_->emitterIndices, "emitters");
     fixed->materials = upload(materials, "materials");
     fixed->texels = upload(texels, "texels");
     for (TextureRecord& texture : textures) texture.texels += fixed->texels.address();
     fixed->textures = upload(textures, "textures");
     fixed->environment = upload(environmentTable(scene.environment), "environment");
-    fixed->bytes += fixed->nodes.size() * sizeof(BvhNode);
     fixed_ = std::move(fixed);
+    if (!scene.deforms()) shapes_ = uploadShapes();
+}
+
+std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
+    auto shapes = std::make_shared<Shapes>();
+    shapes->triangles = gpu::makeBuffer(device_, std::span<const BvhTriangle>(geometry_->triangles), "triangles");
+    shapes->meshes = gpu::makeBuffer(device_, std::span<const MeshRecord>(geometry_->meshes), "meshes");
+    shapes->positions = gpu::makeBuffer(device_, std::span<const glm::vec3>(geometry_->positions), "positions");
+    shapes->vertices = gpu::makeBuffer(device_, std::span<const VertexRecord>(geometry_->vertices), "vertices");
+    return shapes;
 }
 
 WorldBuilder::~WorldBuilder() = default;
 
-std::size_t WorldBuilder::memoryBytes() const { return fixed_->bytes; }
+std::size_t WorldBuilder::memoryBytes() const {
+    const Geometry& g = *geometry_;
+    const auto bytes = [](const auto&... lists) { return ((lists.size() * sizeof(lists[0])) + ...); };
+    return fixed_->bytes + bytes(g.nodes, g.triangles, g.meshes, g.positions, g.vertices);
+}
 
-std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const std::vector<glm::mat4>& matrices) const {
+std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose& pose) {
     auto moving = std::make_shared<Moving>();
+    if (scene_.deforms()) geometry_->pose(scene_, pose);
+    moving->shapes = shapes_ ? shapes_ : uploadShapes();
     std::vector<Box> boxes;
     std::vector<TraceInstance> traced;
     std::vector<InstanceRecord> records;
     Box all;
     for (const Instance& instance : scene_.instances) {
-        const glm::mat4& toWorld = matrices[instance.node];
-        const glm::mat4 toObject = glm::inverse(toWorld);
-        boxes.push_back(transformed(fixed_->bounds[instance.mesh], toWorld));
+        const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose.nodes), toObject = glm::inverse(toWorld);
+        boxes.push_back(transformed(geometry_->bounds[instance.mesh], toWorld));
         all.low = glm::min(all.low, boxes.back().low);
         all.high = glm::max(all.high, boxes.back().high);
-        const Box& grid = fixed_->grids[instance.mesh];  // low: base, high: scale
-        traced.push_back(traceInstance(instance.mesh, grid.low, grid.high, toWorld));
+        const BvhGrid& grid = geometry_->grids[instance.mesh];
+        traced.push_back(traceInstance(instance.mesh, grid.base, grid.scale, toWorld));
         InstanceRecord record{};
         putRows(toWorld, record.toWorld);
         putRows(toObject, record.toObject);
         record.mesh = instance.mesh;
-        record.flags = glm::determinant(glm::mat3(toWorld)) < 0 ? INSTANCE_MIRRORED : 0;
+        const std::vector<glm::mat4> joints = jointMatrices(scene_, scene_.meshes[instance.mesh], pose.nodes);
+        record.flags = glm::determinant(glm::mat3(joints.empty() ? toWorld : joints[0])) < 0 ? INSTANCE_MIRRORED : 0;
         records.push_back(record);
     }
     if (all.low.x <= all.high.x) {
         moving->center = 0.5f * (all.low + all.high);
         moving->radius = std::max(0.5f * glm::length(all.high - all.low), 1e-6f);
     }
-    const LightList lights = listLights(scene_, fixed_->emitters, matrices, moving->radius);
+    std::vector<std::span<const glm::vec3>> positions;
+    for (std::size_t m = 0; m < scene_.meshes.size(); ++m) positions.push_back(geometry_->finestPositions(m));
+    const LightList lights = listLights(scene_, geometry_->emitters, positions, pose.nodes, moving->radius);
     for (std::size_t i = 0; i < records.size(); ++i) records[i].firstLight = lights.firstLight[i];
 
     const Bvh top = buildTopLevel(boxes);
-    std::vector<BvhNode> nodes = fixed_->nodes;
+    std::vector<BvhNode> nodes = geometry_->nodes;
     moving->gridBase = top.gridBase;
     moving->gridScale = top.gridScale;
     moving->topRoot = top.root == bvh_ref::empty ? top.root : appendNodes(top, nodes, 0);
@@ -258,10 +207,10 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const std::
 }
 
 FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
-    std::vector<glm::mat4> matrices = scene_.nodeMatrices(frame);
-    if (!moving_ || matrices != matrices_) {
-        moving_ = makeMoving(matrices);
-        matrices_ = std::move(matrices);
+    Pose pose = poseAt(scene_, frame);
+    if (!moving_ || pose != pose_) {
+        moving_ = makeMoving(pose);
+        pose_ = std::move(pose);
     }
     std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
     if (!levels_ || levels != levels_->values) {
@@ -272,7 +221,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     }
     World w{};
     w.nodes = moving_->nodes.address();
-    w.triangles = fixed_->triangles.address();
+    w.triangles = moving_->shapes->triangles.address();
     w.traceInstances = moving_->traceInstances.address();
     w.roots = fixed_->roots.address();
     w.levels = levels_->buffer.address();
@@ -283,10 +232,10 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.instances = moving_->instances.address();
     w.primitives = fixed_->primitives.address();
     w.meshLevels = fixed_->levels.address();
-    w.meshes = fixed_->meshes.address();
+    w.meshes = moving_->shapes->meshes.address();
     w.emitters = fixed_->emitterIndices.address();
-    w.positions = fixed_->positions.address();
-    w.vertices = fixed_->vertices.address();
+    w.positions = moving_->shapes->positions.address();
+    w.vertices = moving_->shapes->vertices.address();
     w.materials = fixed_->materials.address();
     w.textures = fixed_->textures.address();
     w.lights = moving_->lights.address();

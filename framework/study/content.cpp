@@ -35,6 +35,12 @@ void add(Hash& hash, const MeshLevel& level) {
     addList(hash, level.colors);
     addList(hash, level.triangles);
     addList(hash, level.materials);
+    addList(hash, level.joints);
+    for (const MorphTarget& target : level.targets) {
+        addList(hash, target.positions);
+        addList(hash, target.normals);
+        addList(hash, target.tangents);
+    }
     addAll(hash, level.error);
 }
 
@@ -48,7 +54,7 @@ void add(Hash& hash, const Node& node) {
 }
 
 void add(Hash& hash, const AnimationChannel& channel) {
-    addAll(hash, channel.node, channel.value, channel.interpolation);
+    addAll(hash, channel.node, channel.value, channel.target, channel.interpolation);
     addList(hash, channel.times);
     addList(hash, channel.values);
 }
@@ -83,8 +89,13 @@ Hash contentOf(const Graph& graph) {
 Hash contentOf(const Scene& scene) {
     Hash hash;
     for (const Mesh& mesh : scene.meshes) {
-        hash.addValue(mesh.levels.size());
+        addAll(hash, mesh.levels.size(), mesh.node, mesh.skin);
+        addList(hash, mesh.weights);
         for (const MeshLevel& level : mesh.levels) add(hash, level);
+    }
+    for (const Skin& skin : scene.skins) {
+        addList(hash, skin.nodes);
+        addList(hash, skin.inverseBind);
     }
     for (const Material& material : scene.materials) add(hash, material);
     for (const Texture& texture : scene.textures) add(hash, texture);

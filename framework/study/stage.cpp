@@ -2,6 +2,7 @@
 #include <framework/core/log.h>
 #include <framework/graph/scene_node.h>
 #include <framework/image/exr.h>
+#include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
 #include <framework/study/stage.h>
@@ -68,7 +69,7 @@ int firstAlike(const Study& study, const Scene& scene, int frame) {
     for (const int offset : study.measure) {
         const int earlier = study.event + offset;
         if (earlier >= frame) break;
-        if (sameView(scene.cameraAt(float(earlier)), scene.cameraAt(float(frame))) && scene.nodeMatrices(float(earlier)) == scene.nodeMatrices(float(frame)) &&
+        if (sameView(scene.cameraAt(float(earlier)), scene.cameraAt(float(frame))) && poseAt(scene, float(earlier)) == poseAt(scene, float(frame)) &&
             levels(earlier) == levels(frame))
             return earlier;
     }

@@ -64,11 +64,17 @@ TEST(AliasTable, EqualAndAbsentWeights) {
     EXPECT_TRUE(makeAliasTable({}).empty());
 }
 
+std::vector<std::span<const glm::vec3>> positionsOf(const Scene& scene) {
+    std::vector<std::span<const glm::vec3>> positions;
+    for (const Mesh& mesh : scene.meshes) positions.push_back(mesh.levels[0].positions);
+    return positions;
+}
+
 // Power is a half of the choice, the kind of light the other half: here one kind, so the two triangles share evenly.
 TEST(LightList, TrianglesByPower) {
     const Scene scene = squareScene(3);
     const std::vector<MeshEmitters> emitters{squareEmitters()};
-    const LightList list = listLights(scene, emitters, std::vector{glm::mat4(1)}, 1);
+    const LightList list = listLights(scene, emitters, positionsOf(scene), std::vector{glm::mat4(1)}, 1);
     ASSERT_EQ(list.lights.size(), 2u);
     EXPECT_EQ(list.firstLight[0], 0u);
     EXPECT_EQ(list.environmentLight, NONE);
@@ -84,7 +90,7 @@ TEST(LightList, NoKindStarves) {
     scene.environment.radiance = {glm::vec3(1)};
     scene.lights.push_back({.name = "lamp", .type = LightType::point, .intensity = 1e-5f, .node = 0});
     const std::vector<MeshEmitters> emitters{squareEmitters()};
-    const LightList list = listLights(scene, emitters, std::vector{glm::mat4(1)}, 10);
+    const LightList list = listLights(scene, emitters, positionsOf(scene), std::vector{glm::mat4(1)}, 10);
     ASSERT_EQ(list.lights.size(), 4u);
     EXPECT_EQ(list.environmentLight, 3u);
     EXPECT_NEAR(list.lights[0].pmf + list.lights[1].pmf, 1.0 / 6, 1e-3);
@@ -94,7 +100,7 @@ TEST(LightList, NoKindStarves) {
 
 TEST(LightList, BlackThingsAreNoLights) {
     Scene scene = squareScene(0);
-    const LightList list = listLights(scene, std::vector<MeshEmitters>(1), std::vector{glm::mat4(1)}, 1);
+    const LightList list = listLights(scene, std::vector<MeshEmitters>(1), positionsOf(scene), std::vector{glm::mat4(1)}, 1);
     EXPECT_TRUE(list.lights.empty());
     EXPECT_EQ(list.firstLight[0], NONE);
 }
