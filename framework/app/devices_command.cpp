@@ -6,6 +6,7 @@
 #include <framework/core/json.h>
 #include <framework/core/log.h>
 #include <framework/gpu/device.h>
+#include <framework/graph/runner.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -23,6 +24,11 @@ struct Options {
     bool json = false;
 };
 
+/// What a command that renders will say of this device.
+std::string reasonOf(const gpu::DeviceFacts& facts, const std::vector<gpu::DeviceFacts>& devices, const std::string& choice) {
+    return fmt::format("{}; rays by {}", gpu::whyDevice(devices, choice), whyRayBody(facts));
+}
+
 Json toJson(const gpu::DeviceFacts& facts, bool chosen) {
     Json json = Json::object();
     json["index"] = facts.index;
@@ -35,6 +41,7 @@ Json toJson(const gpu::DeviceFacts& facts, bool chosen) {
     json["memoryBytes"] = static_cast<std::int64_t>(facts.memoryBytes);
     json["usable"] = facts.usable();
     json["chosen"] = chosen;
+    json["rays"] = std::string(nameOf(chooseRayBody(facts, "")));
     json["features"] = Json::array();
     for (const gpu::Feature& feature : facts.features) {
         Json row = Json::object();
@@ -77,6 +84,7 @@ int listDevices(const Options& options) {
         else
             print(devices[i], chosen == i);
     }
+    if (chosen && !options.json) fmt::print("device {}, {}\n", devices[*chosen].name, reasonOf(devices[*chosen], devices, options.device));
     if (options.json) fmt::print("{}\n", list.dump());
     if (refusal) log::warn("{}", refusal->what());
     return chosen ? 0 : 1;

@@ -38,7 +38,7 @@ void SessionOptions::addTo(CLI::App& command) {
     command.add_option("--dump", dumps, "pass.port to write as well")->take_all()->allow_extra_args(false);
     command.add_option("--passes", passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
     command.add_option("--device", device, "name or index, see `lodestir devices`");
-    command.add_option("--rays", rays, "how rays are traced: packet or lane");
+    command.add_option("--rays", rays, "how rays are traced: packet, lane or ray_query");
     command.add_flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
     command.add_flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
     command.add_flag("--count-steps", countSteps, "count the nodes that rays visit");
@@ -55,6 +55,7 @@ Session::Session(const SessionOptions& options) : libraries_(options.passes) {
     sceneMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     device_ = std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options.device});
     rays_ = chooseRayBody(device_->facts(), options.rays);
+    log::note("device {}, {}; rays by {}", device_->facts().name, device_->reason(), options.rays.empty() ? whyRayBody(device_->facts()) : options.rays + ", as asked for");
     runner_ = std::make_unique<Runner>(*device_, *graph_, scene_,
                                        RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps});
 }

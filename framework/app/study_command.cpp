@@ -165,7 +165,7 @@ void addStudy(CLI::App& app, std::function<int()>& run) {
         });
     command->add_option("--passes", options->stage.passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
     command->add_option("--device", options->stage.device, "name or index, see `lodestir devices`");
-    command->add_option("--rays", options->stage.rays, "how rays are traced: packet or lane");
+    command->add_option("--rays", options->stage.rays, "how rays are traced: packet, lane or ray_query");
     command->callback([options, &run] { run = [options] { return runStudy(*options); }; });
 }
 

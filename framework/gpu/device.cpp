@@ -176,6 +176,15 @@ std::size_t chooseDevice(const std::vector<DeviceFacts>& devices, const std::str
     return *std::ranges::min_element(candidates, {}, [&](std::size_t i) { return preference(devices[i]); });
 }
 
+std::string whyDevice(const std::vector<DeviceFacts>& devices, const std::string& choice) {
+    const DeviceFacts& chosen = devices[chooseDevice(devices, choice)];
+    if (!choice.empty()) return fmt::format("asked for as \"{}\"", choice);
+    const auto usable = std::ranges::count_if(devices, &DeviceFacts::usable);
+    if (devices.size() == 1) return "the only one";
+    if (usable == 1) return fmt::format("the only one of {} that has all that is needed", devices.size());
+    return fmt::format("the first {} one of {} that have all that is needed", chosen.type, usable);
+}
+
 Device::Device(std::nullptr_t) : messages_(std::make_unique<Messages>()) {}
 
 Device::Device(const DeviceOptions& options) : Device(nullptr) {
@@ -206,6 +215,7 @@ Device::Device(const DeviceOptions& options) : Device(nullptr) {
     instance_ = createInstance(extensions, layers, validating_ ? &messenger : nullptr);
     const std::vector<DeviceFacts> devices = instance_ ? describeAll(instance_) : std::vector<DeviceFacts>{};
     const std::size_t chosen = chooseDevice(devices, options.choice);
+    reason_ = whyDevice(devices, options.choice);
     facts_ = devices[chosen];
     physical_ = physicalDevices(instance_)[chosen];
     queueFamily_ = static_cast<std::uint32_t>(findQueueFamily(physical_));

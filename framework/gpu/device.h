@@ -50,6 +50,8 @@ struct DeviceOptions {
 LODESTIR_API std::vector<DeviceFacts> listDevices();
 /// Index into `devices` of the one that `choice` means (see DeviceOptions). Error naming each device and what it lacks when none fits.
 LODESTIR_API std::size_t chooseDevice(const std::vector<DeviceFacts>& devices, const std::string& choice);
+/// Why that one, as the end of a sentence.
+LODESTIR_API std::string whyDevice(const std::vector<DeviceFacts>& devices, const std::string& choice);
 
 /// Vulkan 1.3 with bufferDeviceAddress, scalarBlockLayout, shaderInt64, 8/16-bit storage, descriptorIndexing,
 /// subgroup basic/vote/ballot/shuffle/arithmetic in compute, synchronization2, host query reset. The whole list: `lodestir devices`.
@@ -63,6 +65,7 @@ public:
     Device& operator=(const Device&) = delete;
 
     const DeviceFacts& facts() const { return facts_; }
+    const std::string& reason() const { return reason_; }  ///< why this one was chosen, see whyDevice
     VkInstance instance() const { return instance_; }
     VkPhysicalDevice physical() const { return physical_; }
     VkDevice handle() const { return device_; }
@@ -83,6 +86,7 @@ private:
     struct Messages;
     explicit Device(std::nullptr_t);  ///< holds nothing yet
     DeviceFacts facts_;
+    std::string reason_;
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;

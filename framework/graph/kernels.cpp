@@ -30,7 +30,8 @@ Kernel Kernels::make(int node, std::string_view shader) {
     source.file = shaderOf(*n.plugin, shader);
     source.folders = includeFolders(*n.plugin);
     source.generated["pass.glsl"] = passHeader(graph_, node);
-    source.defines.emplace_back(options_.rays == RayBody::packet ? "TRACE_PACKET" : "TRACE_LANE", "1");
+    constexpr const char* bodies[] = {"TRACE_PACKET", "TRACE_LANE", "TRACE_RAY_QUERY"};
+    source.defines.emplace_back(bodies[std::size_t(options_.rays)], "1");
     if (persistent()) source.defines.emplace_back("TRACE_PERSISTENT", "1");
     if (options_.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
     if (options_.countSteps) source.defines.emplace_back("COUNT_STEPS", "1");

@@ -54,6 +54,7 @@ public:
     virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) = 0;
     virtual const gpu::Device& device() const = 0;
     virtual const Scene& scene() const = 0;
+    virtual bool usesRayQuery() const = 0;  ///< rays are traced by the driver; every World that is provided gets its top level after the pass
 };
 
 class LODESTIR_API Pass {

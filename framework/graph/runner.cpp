@@ -8,23 +8,44 @@
 #include <framework/graph/kernels.h>
 #include <framework/graph/port_memory.h>
 #include <framework/graph/texels.h>
+#include <framework/graph/top_levels.h>
 #include <framework/scene/scene.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <numeric>
 
 namespace lodestir {
 
-std::string_view nameOf(RayBody body) { return body == RayBody::packet ? "packet" : "lane"; }
+namespace {
+
+constexpr std::array<std::string_view, 3> rayBodies{"packet", "lane", "ray_query"};
+
+bool canTracePackets(const gpu::DeviceFacts& device) { return device.isLavapipe && device.subgroupSize == 8; }
+
+}  // namespace
+
+std::string_view nameOf(RayBody body) { return rayBodies[std::size_t(body)]; }
 
 RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish) {
-    const bool packets = device.isLavapipe && device.subgroupSize == 8;
-    if (wish.empty()) return packets ? RayBody::packet : RayBody::lane;
-    if (wish == "lane") return RayBody::lane;
-    if (wish != "packet") throw Error("no ray body \"" + wish + "\"", "known: packet, lane");
-    if (!packets) throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name, "use --rays lane");
-    return RayBody::packet;
+    if (wish.empty()) return canTracePackets(device) ? RayBody::packet : device.rayQuery ? RayBody::rayQuery : RayBody::lane;
+    const auto found = std::ranges::find(rayBodies, wish);
+    if (found == rayBodies.end()) throw Error("no ray body \"" + wish + "\"", "known: packet, lane, ray_query");
+    const auto body = RayBody(found - rayBodies.begin());
+    if (body == RayBody::packet && !canTracePackets(device))
+        throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name, "use --rays lane");
+    if (body == RayBody::rayQuery && !device.rayQuery) throw Error("ray body \"ray_query\" needs VK_KHR_ray_query, which " + device.name + " lacks", "use --rays lane");
+    return body;
+}
+
+std::string whyRayBody(const gpu::DeviceFacts& device) {
+    switch (chooseRayBody(device, "")) {
+        case RayBody::packet: return "packet: eight lanes of the CPU share one walk, several times faster here than the driver's ray query";
+        case RayBody::rayQuery: return "ray_query: the device traces in hardware";
+        case RayBody::lane: return "lane: the device has no ray query, so each lane walks our own hierarchy";
+    }
+    return {};
 }
 
 namespace {
@@ -46,6 +67,7 @@ public:
           commands_(device, std::uint32_t(2 * plan_.steps.size() + 2)),
           size_(graph.description.size),
           counters_(device, maxDispatches * counterStride, gpu::Memory::device, "tile counters") {
+        if (options_.rays == RayBody::rayQuery) topLevels_.emplace(device);
         allocate();
     }
 
@@ -63,6 +85,7 @@ public:
     std::uint32_t frame_ = 0;
     bool historyValid_ = false, fresh_ = true;  ///< fresh: memory never cleared
     std::unique_ptr<PortMemories> memories_;
+    std::optional<TopLevels> topLevels_;  ///< with ray queries only
     gpu::Buffer counters_, ledger_, faults_, facts_;  ///< facts: ledger and faults, read back
     struct NodeState {
         BlockLayout layout;
@@ -98,6 +121,7 @@ public:
     }
     const gpu::Device& device() const override { return s_.device_; }
     const Scene& scene() const override { return s_.scene_; }
+    bool usesRayQuery() const override { return s_.topLevels_.has_value(); }
 
     void dispatch(std::string_view shader, glm::uvec2 extent, std::initializer_list<std::uint32_t> arguments) override {
         if (extent.x == 0 || extent.y == 0) return;
@@ -139,11 +163,15 @@ public:
     void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) override {
         PortMemory& memory = made(port);
         if (value.size() != memory.bytes) throw Error("port \"" + std::string(port.name) + "\" holds " + std::to_string(memory.bytes) + " bytes, given " + std::to_string(value.size()));
-        std::byte* target = memory.now().mapped();
         // Compared with last frame's value, which is the other copy where there is one: an equal value is no change.
-        const bool same = memory.version > 0 && std::memcmp((memory.copies[0] == memory.copies[1] ? memory.now() : memory.last()).mapped(), value.data(), value.size()) == 0;
-        std::memcpy(target, value.data(), value.size());
-        memory.keep[std::size_t(memory.current)] = withInputs(std::move(keep));
+        const int before = memory.copies[0] == memory.copies[1] ? memory.current : memory.previous;
+        const std::byte* old = memory.version > 0 ? memory.copies[std::size_t(before)]->mapped() : nullptr;
+        std::vector<std::byte> bytes(value.begin(), value.end());
+        keep = withInputs(std::move(keep));
+        if (s_.topLevels_ && port.type.name == "World") keep = withTopLevel(bytes, old, memory.keep[std::size_t(before)], std::move(keep), memory.now().address());
+        const bool same = old && std::memcmp(old, bytes.data(), bytes.size()) == 0;
+        std::memcpy(memory.now().mapped(), bytes.data(), bytes.size());
+        memory.keep[std::size_t(memory.current)] = std::move(keep);
         if (!same) ++memory.version;
     }
 
@@ -167,6 +195,24 @@ private:
             const PortMemory& memory = s_.memories_->at(std::size_t(resource));
             if (const auto& keep = memory.keep[std::size_t(memory.current)]) kept->push_back(keep);
         }
+        return kept;
+    }
+    /// Gives a World its top level: the old one where nothing else differs from the old World.
+    std::shared_ptr<const void> withTopLevel(std::vector<std::byte>& bytes, const std::byte* old, const std::shared_ptr<const void>& oldKeep,
+                                             std::shared_ptr<const void> keep, VkDeviceAddress place) const {
+        World world;
+        std::memcpy(&world, bytes.data(), sizeof world);
+        if (world.instanceCount == 0) return keep;
+        if (old) {
+            std::memcpy(&world.tlas, old + offsetof(World, tlas), sizeof world.tlas);
+            if (std::memcmp(old, &world, sizeof world) == 0) {
+                std::memcpy(bytes.data(), &world, sizeof world);
+                return oldKeep;
+            }
+        }
+        auto kept = std::make_shared<std::vector<std::shared_ptr<const void>>>(1, std::move(keep));
+        kept->push_back(s_.topLevels_->add(world, place));
+        std::memcpy(bytes.data(), &world, sizeof world);
         return kept;
     }
     /// What one pass records is seen by what it records next.
@@ -306,6 +352,7 @@ FrameReport Runner::State::run() {
         }
         Recorder recorder(*this, step.node, dispatches, staging);
         n.pass->execute(recorder);
+        if (topLevels_) topLevels_->record(commands_);
         stamps.push_back({from, commands_.timestamp()});
         commands_.endLabel();
         state.everRan = true;

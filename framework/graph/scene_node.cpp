@@ -16,7 +16,7 @@ struct SceneNode final : Pass {
     std::optional<WorldBuilder> builder;
 
     void execute(Frame& frame) override {
-        if (!builder) builder.emplace(frame.device(), frame.scene());
+        if (!builder) builder.emplace(frame.device(), frame.scene(), frame.usesRayQuery());
         const FrameWorld made = builder->at(animate ? float(frame.index()) : float(int(pose)), frame.size());
         frame.provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep);
     }

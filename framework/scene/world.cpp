@@ -101,6 +101,7 @@ struct WorldBuilder::Fixed {
 /// What follows the pose of one frame.
 struct WorldBuilder::Moving {
     std::shared_ptr<const Shapes> shapes;
+    std::shared_ptr<const BottomLevels::Table> bottomLevels;
     gpu::Buffer nodes, traceInstances, instances, lights;
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
     std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
@@ -113,7 +114,8 @@ struct WorldBuilder::Levels {
     gpu::Buffer buffer;
 };
 
-WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : device_(device), scene_(scene), geometry_(std::make_unique<Geometry>(scene)) {
+WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool rayQuery)
+    : device_(device), scene_(scene), geometry_(std::make_unique<Geometry>(scene)) {
     auto fixed = std::make_shared<Fixed>();
     std::vector<MaterialRecord> materials;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) materials.push_back(materialRecord(scene.materials[i], geometry_->vertexColor[i]));
@@ -141,6 +143,7 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene) : devi
     fixed->environment = upload(environmentTable(scene.environment), "environment");
     fixed_ = std::move(fixed);
     if (!scene.deforms()) shapes_ = uploadShapes();
+    if (rayQuery) bottomLevels_ = std::make_unique<BottomLevels>(device, *geometry_);
 }
 
 std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
@@ -164,6 +167,10 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     auto moving = std::make_shared<Moving>();
     if (scene_.deforms()) geometry_->pose(scene_, pose);
     moving->shapes = shapes_ ? shapes_ : uploadShapes();
+    if (bottomLevels_ && (scene_.deforms() || !moving_))
+        moving->bottomLevels = bottomLevels_->build(scene_, *geometry_, moving->shapes->positions.address());
+    else if (moving_)
+        moving->bottomLevels = moving_->bottomLevels;
     std::vector<Box> boxes;
     std::vector<TraceInstance> traced;
     std::vector<InstanceRecord> records;
@@ -225,6 +232,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.traceInstances = moving_->traceInstances.address();
     w.roots = fixed_->roots.address();
     w.levels = levels_->buffer.address();
+    w.bottomLevels = moving_->bottomLevels ? moving_->bottomLevels->addresses.address() : 0;
     w.gridBase = moving_->gridBase;
     w.gridScale = moving_->gridScale;
     w.topRoot = moving_->topRoot;

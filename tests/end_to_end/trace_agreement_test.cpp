@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The bodies that trace rays agree with each other, and with trying every triangle in double precision.
-#include <framework/gpu/commands.h>
+#include <framework/gpu/acceleration.h>
 #include <framework/shaders/trace/ray.h>
 #include <framework/shaders/world/world.h>
 #include <tests/cpu/triangle_soup.h>
@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory>
+#include <numeric>
 #include <optional>
 
 namespace lodestir::test {
@@ -34,6 +36,7 @@ public:
         for (std::size_t l = 0; l < LEVELS; ++l) {
             if (l >= levels.size()) {
                 roots_.push_back(roots_.back());
+                meshLevels_.push_back(meshLevels_.back());
                 continue;
             }
             const Soup& soup = levels[l];
@@ -42,6 +45,7 @@ public:
             const Bvh bvh = buildBvh({soup.positions, soup.triangles, masks, box});
             const auto firstTriangle = std::uint32_t(triangles_.size());
             roots_.push_back(appendNodes(bvh, nodes_, firstTriangle));
+            meshLevels_.push_back({firstTriangle, std::uint32_t(bvh.triangles.size()), 0});
             triangles_.insert(triangles_.end(), bvh.triangles.begin(), bvh.triangles.end());
             for (const std::uint32_t t : bvh.order) {
                 primitives_.push_back({0, 0, 0, masks[t] == 0 ? 0 : masks[t] - 1});
@@ -94,6 +98,11 @@ public:
         w.primitives = keep(primitives_, "primitives");
         w.materials = keep(materials, "materials");
         w.instanceCount = std::uint32_t(placed_.size());
+        w.meshLevels = keep(meshLevels_, "mesh levels");
+        std::vector<InstanceRecord> records(placed_.size());
+        for (std::size_t i = 0; i < records.size(); ++i) records[i].mesh = placed_[i].mesh;
+        w.instances = keep(records, "instance records");
+        if (device.facts().rayQuery) uploadQueries(device, w);
         return w;
     }
 
@@ -129,6 +138,36 @@ private:
         Bvh bvh;
         std::uint32_t firstTriangle;
     };
+    /// The driver's structures over the same triangles, of the levels that are shown.
+    void uploadQueries(const gpu::Device& device, World& w) {
+        const auto keep = [&](const auto& values, const char* name) {
+            return buffers_.emplace_back(gpu::makeBuffer(device, std::as_bytes(std::span(values)), name)).address();
+        };
+        std::vector<std::uint32_t> indices(3 * corners_.size());
+        std::iota(indices.begin(), indices.end(), 0u);
+        const VkDeviceAddress positions = keep(corners_, "positions"), corners = keep(indices, "indices");
+        std::vector<gpu::TriangleGeometry> geometries;
+        for (const Placed& p : placed_) {
+            const LevelRecord& level = meshLevels_[p.mesh * LEVELS + p.level];
+            geometries.push_back({.positions = positions,
+                                  .indices = corners + std::uint64_t(level.firstPrimitive) * 12,
+                                  .vertices = std::uint32_t(3 * corners_.size()),
+                                  .triangles = level.primitiveCount,
+                                  .opaque = false});
+        }
+        structures_ = gpu::buildBottomLevels(device, geometries);
+        std::vector<VkAccelerationStructureInstanceKHR> instances(placed_.size());
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            for (int row = 0; row < 3; ++row)
+                for (int column = 0; column < 4; ++column) instances[i].transform.matrix[row][column] = placed_[i].toWorld[column][row];
+            instances[i].mask = 0xff;
+            instances[i].flags = VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR;
+            if (structures_[i]) instances[i].accelerationStructureReference = structures_[i]->address();
+        }
+        structures_.push_back(gpu::makeTopLevel(device, keep(instances, "query instances"), std::uint32_t(instances.size())));
+        gpu::runOnce(device, [&](gpu::Commands& commands) { structures_.back()->build(commands); });
+        w.tlas = structures_.back()->address();
+    }
     std::vector<std::vector<Level>> meshes_;
     std::vector<Placed> placed_;
     std::vector<glm::dmat4> toObject_;  ///< parallel to placed_
@@ -137,7 +176,9 @@ private:
     std::vector<uint> roots_;
     std::vector<PrimitiveRecord> primitives_;
     std::vector<std::array<glm::vec3, 3>> corners_;
+    std::vector<LevelRecord> meshLevels_;  ///< m * LEVELS + l
     std::vector<gpu::Buffer> buffers_;
+    std::vector<std::unique_ptr<gpu::AccelerationStructure>> structures_;
 };
 
 struct Push {
@@ -154,6 +195,7 @@ protected:
         device_.emplace(options);
         bodies_.push_back({"lane", pipeline("TRACE_LANE")});
         if (device_->facts().isLavapipe && device_->facts().subgroupSize == 8) bodies_.push_back({"packet", pipeline("TRACE_PACKET")});
+        if (device_->facts().rayQuery) bodies_.push_back({"ray_query", pipeline("TRACE_RAY_QUERY")});
     }
     void TearDown() override {
         if (!device_) return;
@@ -206,8 +248,8 @@ protected:
             EXPECT_LE(wrongAny, rays.size() / 10000) << name;
             EXPECT_LE(unequal, rays.size() / 10000) << name;
         }
-        if (bodies_.size() < 2) return;
-        // Between the bodies only the order differs in which triangles are tried.
+        if (bodies_.size() < 2 || bodies_[1].first != "packet") return;
+        // Between our own bodies only the order differs in which triangles are tried.
         const std::vector<Hit> a = trace(bodies_[0].second, w, rays, false), b = trace(bodies_[1].second, w, rays, false);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {

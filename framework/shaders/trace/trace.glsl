@@ -12,8 +12,10 @@
 #include "trace/packet.glsl"
 #elif defined(TRACE_LANE)
 #include "trace/lane.glsl"
+#elif defined(TRACE_RAY_QUERY)
+#include "trace/ray_query.glsl"
 #else
-#error "the compiler's defines choose a body: TRACE_PACKET or TRACE_LANE"
+#error "the compiler's defines choose a body: TRACE_PACKET, TRACE_LANE or TRACE_RAY_QUERY"
 #endif
 
 Hit trace(World w, Ray ray) { return traceRay(w, ray, false); }

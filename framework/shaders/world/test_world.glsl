@@ -23,7 +23,7 @@ uint64_t testArray(uint array) { return testPush.results + 16ul + 48ul * uint64_
 /// No lights, no environment; a unit camera at the origin that looks along -Z.
 World testWorld() {
     World w;
-    w.nodes = w.triangles = w.traceInstances = w.tlas = 0ul;
+    w.nodes = w.triangles = w.traceInstances = w.bottomLevels = w.tlas = 0ul;
     w.roots = w.levels = UintArray(0ul);
     w.meshLevels = LevelArray(0ul);
     w.meshes = MeshArray(0ul);
