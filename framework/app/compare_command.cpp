@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lodestir compare TEST REFERENCE: error metrics of two images.
 #include <framework/app/compare_command.h>
+#include <framework/app/metric_option.h>
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/json.h>
@@ -8,18 +9,23 @@
 #include <framework/image/color_map.h>
 #include <framework/image/image_file.h>
 #include <framework/image/metrics.h>
+#include <framework/image/sequence.h>
+#include <framework/image/temporal.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <memory>
+#include <optional>
 
 namespace lodestir {
 namespace {
 
 struct CompareArguments {
-    std::string test, reference, map;
+    std::string test, reference, map, motion;
     std::vector<std::string> metrics;
     bool json = false;
     double exposure = 0, mapTop = 0;    ///< 0: chosen from the images
@@ -57,21 +63,89 @@ void writeMap(const CompareArguments& arguments, ImageData map) {
     }
 }
 
-int compare(CompareArguments arguments) {
-    if (arguments.metrics.empty()) arguments.metrics = metricNames();
-    const ImageData test = readColor(arguments.test), reference = readColor(arguments.reference);
-    MetricOptions options;
-    if (arguments.exposure > 0) options.exposure = arguments.exposure;
+MetricOptions optionsFor(const CompareArguments& arguments, const ImageData& reference) {
+    MetricOptions options{.exposure = arguments.exposure > 0 ? arguments.exposure : exposureOf(reference)};
     if (const auto& flip = arguments.flipExposures; !flip.empty())
         options.flip.exposures = FlipExposures{.start = flip[0], .stop = flip[1], .count = static_cast<int>(flip[2])};
+    else
+        options.flip.exposures = flipExposures(reference);
+    return options;
+}
 
-    Json values = Json::object();
-    for (const std::string& name : arguments.metrics) values[name] = Json(evaluate(name, test, reference, options));
+/// Metrics of images, or those of sequences, among `names`.
+std::vector<std::string> chosen(const std::vector<std::string>& names, bool temporal) {
+    std::vector<std::string> some;
+    std::ranges::copy_if(names, std::back_inserter(some), [&](const std::string& name) { return isTemporal(name) == temporal; });
+    return some;
+}
+
+std::map<std::string, double> compareImages(const CompareArguments& arguments) {
+    if (const auto temporal = chosen(arguments.metrics, true); !temporal.empty())
+        throw Error("\"" + temporal.front() + "\" needs two frames in a row", "name a sequence: out/display.%d.exr");
+    const ImageData test = readColor(arguments.test), reference = readColor(arguments.reference);
+    const MetricOptions options = optionsFor(arguments, reference);
     if (!arguments.map.empty()) writeMap(arguments, errorMap(arguments.metrics.front(), test, reference, options));
+    return evaluateAll(arguments.metrics, test, reference, options);
+}
+
+/// The files of a sequence for the frames of another: its own, or one image that stands for all of them.
+std::map<int, Path> filesFor(const std::map<int, Path>& frames, const Path& path) {
+    std::map<int, Path> files;
+    if (!isSequence(path)) {
+        for (const auto& [number, file] : frames) files[number] = path;
+        return files;
+    }
+    files = sequenceFiles(path);
+    for (const auto& [number, file] : frames)
+        if (!files.contains(number)) throw Error(Where{path.string()}, "there is no file of frame " + std::to_string(number), "TEST has " + file.string());
+    if (files.size() > frames.size()) log::warn("{}: {} frames have no test image and are left out", path.string(), files.size() - frames.size());
+    return files;
+}
+
+/// Means over the frames, and over the steps from one frame to the next.
+std::map<std::string, double> compareSequences(const CompareArguments& arguments) {
+    if (!arguments.map.empty()) throw Error("--map shows the error of one image", "name a frame instead of a sequence");
+    const std::map<int, Path> tests = sequenceFiles(arguments.test), references = filesFor(tests, arguments.reference);
+    const std::map<int, Path> motions = arguments.motion.empty() ? std::map<int, Path>() : filesFor(tests, arguments.motion);
+    const std::vector<std::string> still = chosen(arguments.metrics, false), temporal = chosen(arguments.metrics, true);
+    std::map<std::string, double> sums;
+    std::optional<MetricOptions> options;
+    ImageData testBefore, referenceBefore;
+    int before = 0, steps = 0;
+    for (const auto& [number, file] : tests) {
+        ImageData test = readColor(file), reference = readColor(references.at(number));
+        if (!options) options = optionsFor(arguments, reference);
+        for (const auto& [name, value] : evaluateAll(still, test, reference, *options)) sums[name] += value / double(tests.size());
+        if (!testBefore.values.empty() && before + 1 == number) {
+            ++steps;
+            const ImageData motion = motions.empty() ? ImageData() : readImage(motions.at(number));
+            const Step step{test, testBefore, reference, referenceBefore, motions.empty() ? nullptr : &motion};
+            for (const std::string& name : temporal) sums[name] += evaluateStep(name, step, *options);
+        }
+        testBefore = std::move(test), referenceBefore = std::move(reference), before = number;
+    }
+    if (steps == 0 && !temporal.empty())
+        throw Error(Where{arguments.test}, "no two frames follow each other, which \"" + temporal.front() + "\" needs");
+    for (const std::string& name : temporal) sums[name] /= steps;
+    log::note("means over {} frames and {} steps from one to the next", tests.size(), steps);
+    return sums;
+}
+
+int compare(CompareArguments arguments) {
+    const bool sequence = isSequence(arguments.test);
+    if (!sequence && (isSequence(arguments.reference) || !arguments.motion.empty()))
+        throw Error(Where{arguments.test}, "is one image, to be compared with one image", "a sequence is named by %d: out/display.%d.exr");
+    if (arguments.metrics.empty()) {
+        arguments.metrics = metricNames();
+        if (sequence) std::ranges::copy(temporalMetricNames(), std::back_inserter(arguments.metrics));
+    }
+    const std::map<std::string, double> found = sequence ? compareSequences(arguments) : compareImages(arguments);
+    Json values = Json::object();
+    for (const std::string& name : arguments.metrics) values[name] = Json(found.at(name));
     if (arguments.json) {
         fmt::print("{}\n", values.dump(-1));
     } else {
-        for (const auto& [name, value] : values.members()) fmt::print("{:<16}{:.6g}\n", name, value.asNumber());
+        for (const auto& [name, value] : values.members()) fmt::print("{:<{}}{:.6g}\n", name, sequence ? 24 : 16, value.asNumber());
     }
     return 0;
 }
@@ -79,6 +153,8 @@ int compare(CompareArguments arguments) {
 std::string metricHelp() {
     std::string text = "metrics (x: TEST, r: REFERENCE):\n";
     for (const std::string& name : metricNames()) text += fmt::format("  {:<16}{}\n", name, metricAbout(name));
+    text += "metrics of sequences (t: number of the frame):\n";
+    for (const std::string& name : temporalMetricNames()) text += fmt::format("  {:<24}{}\n", name, temporalMetricAbout(name));
     return text;
 }
 
@@ -86,17 +162,12 @@ std::string metricHelp() {
 
 void addCompare(CLI::App& app, std::function<int()>& run) {
     const auto arguments = std::make_shared<CompareArguments>();
-    CLI::App* command = app.add_subcommand("compare", "error metrics of two images");
-    command->add_option("TEST", arguments->test, "image to judge (.exr, .png, .hdr); opacity is left out")->required();
-    command->add_option("REFERENCE", arguments->reference, "image to judge it by")->required();
-    command->add_option("--metrics", arguments->metrics, "names, separated by commas (all)")
-        ->delimiter(',')
-        ->allow_extra_args(false)  // what follows may be TEST
-        ->check([](const std::string& name) {
-            const std::vector<std::string> names = metricNames();
-            const bool isKnown = std::ranges::find(names, name) != names.end();
-            return isKnown ? std::string() : "unknown metric \"" + name + "\"; " + didYouMean(name, names);
-        });
+    CLI::App* command = app.add_subcommand("compare", "error metrics of two images or sequences of images");
+    command->add_option("TEST", arguments->test, "image to judge (.exr, .png, .hdr; opacity is left out), or a sequence: out/display.%d.exr")->required();
+    command->add_option("REFERENCE", arguments->reference, "image to judge it by, or a sequence")->required();
+    std::vector<std::string> known = metricNames();
+    std::ranges::copy(temporalMetricNames(), std::back_inserter(known));
+    addMetrics(*command, arguments->metrics, std::move(known), "names, separated by commas (all)");
     command->add_flag("--json", arguments->json, "print one JSON object");
     command
         ->add_option("--exposure", arguments->exposure,
@@ -108,6 +179,8 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
         ->delimiter(',')
         ->expected(3)
         ->allow_extra_args(false);
+    command->add_option("--motion", arguments->motion,
+                        "sequence of motions as `visibility` makes them, for the flicker of what moves: out/hits.motion.%d.exr");
     command->add_option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)");
     command->add_option("--map-top", arguments->mapTop, "error shown brightest in a .png map (99 % of the pixels are below)")
         ->check(CLI::PositiveNumber);

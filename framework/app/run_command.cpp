@@ -2,6 +2,7 @@
 #include <framework/app/run_command.h>
 
 #include <framework/app/dump.h>
+#include <framework/app/metric_option.h>
 #include <framework/app/run_report.h>
 #include <framework/core/log.h>
 #include <framework/image/exr.h>
@@ -25,6 +26,7 @@ struct RunOptions {
     SessionOptions session;
     Path out = "out";
     Path reference;
+    std::vector<std::string> metrics{"mse", "relmse", "mae", "bias"};  ///< none takes longer than writing the image
     bool checkNan = false, lastOnly = false, json = false;
 };
 
@@ -69,6 +71,8 @@ int runGraph(const RunOptions& options) {
     const bool shownIsImage = graph.port(graph.show).type.kind == PortType::Kind::image;
     if (!shownIsImage && (reference || options.checkNan))
         throw Error(graph.description.showWhere, "the shown port " + shown + " is no image", "--reference and --check-nan need one; see --show");
+    MetricOptions how;
+    if (reference) how = {.exposure = exposureOf(*reference), .flip = {.exposures = flipExposures(*reference)}};  // once, not for each frame
     if (reference) warnOfSameSeed(options.reference, graph.description.seed);
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
@@ -84,8 +88,7 @@ int runGraph(const RunOptions& options) {
         if (shownIsImage && (write || reference || options.checkNan)) {
             const ImageData image = runner.readImage(graph.show);
             if (options.checkNan) requireFinite(image, shown);
-            if (reference)
-                for (const std::string& name : metricNames()) metrics[name] = evaluate(name, colorOf(image), *reference);
+            if (reference) metrics = evaluateAll(options.metrics, colorOf(image), *reference, how);
             if (write) {
                 writeExr(options.out / (shownName + suffix + ".exr"), image, {.attributes = {{"lodestir", resolved}}});
                 writePng(options.out / (shownName + suffix + ".png"), preview(image));
@@ -115,7 +118,10 @@ void addRun(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "Renders a graph's frames and writes images, dumps and run.json.");
     options->session.addTo(*command);
-    command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json");
+    CLI::Option* reference = command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json");
+    addMetrics(*command, options->metrics, metricNames(), "what is measured of each frame, names separated by commas: see `lodestir compare --help`")
+        ->needs(reference)
+        ->capture_default_str();
     command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
     command->add_flag("--check-nan", options->checkNan, "fail when a shown or dumped image holds a value that is not finite");
     command->add_flag("--last", options->lastOnly, "write images of the last frame only");

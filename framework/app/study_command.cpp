@@ -3,7 +3,7 @@
 
 #include <framework/app/run_report.h>
 #include <framework/core/log.h>
-#include <framework/image/metrics.h>
+#include <framework/image/temporal.h>
 #include <framework/study/ensemble_report.h>
 #include <framework/study/ensemble_study.h>
 #include <framework/study/report.h>
@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -32,11 +33,13 @@ struct SceneReferences {
     FlipExposures flipExposures;
     std::vector<Halves> frames, finest;    ///< parallel to Study::measure; the second where the study asks for it
     std::vector<std::vector<bool>> masks;  ///< likewise
+    std::vector<ImageData> motions;        ///< likewise
 };
 
 SceneReferences makeReferences(Stage& stage, const Study& study, std::size_t scene, const Path& folder) {
     SceneReferences references{.scene = scene};
     if (study.maskSwitched) references.masks = stage.switchedMasks(scene);
+    if (std::ranges::any_of(study.metrics, isTemporal)) references.motions = stage.motions(scene);
     for (const int offset : study.measure) {
         references.frames.push_back(stage.reference(scene, offset, folder));
         if (study.referenceFinest) references.finest.push_back(stage.reference(scene, offset, folder, true));
@@ -79,9 +82,16 @@ std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun&
                       .passes = costsOf(frames[i].report),
                       .exposure = references.exposure};
         for (const Measure& measure : measuresOf(study)) {
-            const Halves& reference = (measure.finest ? references.finest : references.frames)[i];
+            const std::vector<Halves>& halves = measure.finest ? references.finest : references.frames;
+            const Halves& reference = halves[i];
             MetricOptions how{.exposure = references.exposure, .flip = {.exposures = references.flipExposures}};
             if (measure.switched) how.mask = references.masks[i];
+            if (isTemporal(measure.metric)) {
+                if (i == 0 || study.measure[i - 1] + 1 != study.measure[i]) continue;  // nothing to compare the frame with
+                row.metrics[measure.name()] = evaluateStep(
+                    measure.metric, {frames[i].image, frames[i - 1].image, reference.mean, halves[i - 1].mean, &references.motions[i]}, how);
+                continue;
+            }
             row.metrics[measure.name()] = measureError(measure.metric, frames[i].image, reference, how);
             if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, reference, how);
         }

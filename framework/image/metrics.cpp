@@ -2,6 +2,7 @@
 // Error metrics. A new one is a line in the table: its name, its definition, the error of each pixel, and how pixels become one value (or,
 // where it is no mean of such errors, the value alone).
 #include <framework/core/error.h>
+#include <framework/image/gradient.h>
 #include <framework/image/metrics.h>
 #include <framework/image/srgb.h>
 #include <framework/image/ssim.h>
@@ -95,6 +96,11 @@ std::vector<double> dissimilarity(const Pair& pair) {
     for (double& error : errors) error = 1 - error;
     return errors;
 }
+std::vector<double> gradientDissimilarity(const Pair& pair) {
+    std::vector<double> errors = gradientSimilarity(Luma(pair.test, pair.exposure), Luma(pair.reference, pair.exposure));
+    for (double& error : errors) error = 1 - error;
+    return errors;
+}
 double similarityOfScales(const Pair& pair) {
     return msSsim(Luma(pair.test, pair.exposure), Luma(pair.reference, pair.exposure), pair.mask);
 }
@@ -110,6 +116,12 @@ double trimmedMean(const std::vector<double>& errors) {
 
 double rootMean(const std::vector<double>& errors) { return std::sqrt(mean(errors)); }
 double decibels(const std::vector<double>& errors) { return -10 * std::log10(mean(errors)); }
+double deviation(const std::vector<double>& errors) {
+    const double middle = mean(errors);
+    double sum = 0;
+    for (const double error : errors) sum += square(error - middle);
+    return std::sqrt(sum / static_cast<double>(errors.size()));
+}
 double oneMinusMean(const std::vector<double>& errors) { return 1 - mean(errors); }
 
 struct Metric {
@@ -151,6 +163,10 @@ constexpr Metric table[] = {
      "1.5, C1 = 1e-4, C2 = 9e-4, on the Rec. 709 luma of the images scaled as for relmse, ACES-tone-mapped and sRGB-encoded; NaN below 11 "
      "pixels a side",
      dissimilarity, oneMinusMean, ssimMargin},
+    {"gmsd",
+     "gradient magnitude similarity deviation (Xue et al. 2014), 0 for equal images: standard deviation over pixels of (2 gx gr + c) / (gx^2 + gr^2 + c), g "
+     "being Prewitt gradients of means of 2 x 2 pixels of the luma of ssim, c = 0.0026; an error that is the same everywhere has 0",
+     gradientDissimilarity, deviation},
     {"ms_ssim",
      "MS-SSIM (Wang et al. 2003), 1 for equal images: as ssim, on five scales; below 176 pixels a side on those of 11 pixels and more, "
      "their powers scaled to the same sum, so that only values of one size compare; NaN below 11",
@@ -204,24 +220,38 @@ std::vector<std::string> metricNames() {
 
 std::string metricAbout(std::string_view name) { return metricNamed(name).about; }
 
-double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
-    const Metric& metric = metricNamed(name);
+std::map<std::string, double> evaluateAll(const std::vector<std::string>& names, const ImageData& test, const ImageData& reference,
+                                          const MetricOptions& options) {
     const Pair pair = pairOf(test, reference, options);
-    if (metric.whole) return metric.whole(pair);
-    const std::vector<double> errors = metric.map(pair);
-    std::vector<double> pooled;
-    for (int y = metric.margin; y < test.height - metric.margin; ++y) {
-        for (int x = metric.margin; x < test.width - metric.margin; ++x) {
-            const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(test.width) + static_cast<std::size_t>(x);
-            if (pair.counts(pixel)) pooled.push_back(errors[pixel]);
+    std::map<decltype(Metric::map), std::vector<double>> maps;
+    std::map<std::string, double> values;
+    for (const std::string& name : names) {
+        const Metric& metric = metricNamed(name);
+        if (metric.whole) {
+            values[name] = metric.whole(pair);
+            continue;
         }
+        std::vector<double>& errors = maps[metric.map];
+        if (errors.empty()) errors = metric.map(pair);
+        std::vector<double> pooled;
+        for (int y = metric.margin; y < test.height - metric.margin; ++y) {
+            for (int x = metric.margin; x < test.width - metric.margin; ++x) {
+                const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(test.width) + static_cast<std::size_t>(x);
+                if (pair.counts(pixel)) pooled.push_back(errors[pixel]);
+            }
+        }
+        values[name] = pooled.empty() ? std::numeric_limits<double>::quiet_NaN() : metric.pool(pooled);
     }
-    return pooled.empty() ? std::numeric_limits<double>::quiet_NaN() : metric.pool(pooled);
+    return values;
+}
+
+double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
+    return evaluateAll({std::string(name)}, test, reference, options).begin()->second;
 }
 
 ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
     const Metric& metric = metricNamed(name);
-    if (!metric.map) throw Error(std::string(name) + " is no mean over pixels: there is no map of it", "\"ssim\" has one");
+    if (!metric.map) throw Error(std::string(name) + " is not made of errors of pixels: there is no map of it", "\"ssim\" has one");
     const std::vector<double> errors = metric.map(pairOf(test, reference, options));
     ImageData map = makeImage(test.width, test.height, 1);
     std::ranges::transform(errors, map.values.begin(), [](double error) { return static_cast<float>(error); });

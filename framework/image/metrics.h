@@ -4,6 +4,7 @@
 #include <framework/image/flip.h>
 #include <framework/image/image.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,8 +34,12 @@ LODESTIR_API std::string metricAbout(std::string_view name);
 /// Throws Error when there is no such metric, the images differ in size or channels, are empty, or the mask has another size or leaves none.
 LODESTIR_API double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
 
-/// The error of each pixel (one channel), in the mask or not: what the metric averages, before roots or logarithms. For "ssim" it is
-/// 1 - SSIM, 0 near the border. Throws as evaluate() does, and where the metric is no mean over pixels ("ms_ssim").
+/// The same of several metrics by name; what they share is computed once.
+LODESTIR_API std::map<std::string, double> evaluateAll(const std::vector<std::string>& names, const ImageData& test, const ImageData& reference,
+                                                       const MetricOptions& options = {});
+
+/// The error of each pixel (one channel), in the mask or not: what the metric is made of, before roots or logarithms. For "ssim" it is
+/// 1 - SSIM, 0 near the border; for "gmsd" 1 - similarity. Throws as evaluate() does, and where the metric is not made of pixels ("ms_ssim").
 LODESTIR_API ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference,
                                 const MetricOptions& options = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <framework/image/metrics.h>
+#include <framework/image/temporal.h>
 #include <framework/study/chart.h>
 #include <framework/study/halves.h>
 #include <framework/study/page.h>
@@ -76,7 +76,7 @@ private:
         if (summary_.missing > 0) html += fmt::format(" <b>{} runs are still missing.</b>", summary_.missing);
         html += "</p>\n<ul class=\"note\">\n";
         for (const std::string& metric : study_.metrics)
-            html += fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(metricAbout(metric)));
+            html += fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(isTemporal(metric) ? temporalMetricAbout(metric) : metricAbout(metric)));
         if (study_.maskSwitched) html += "<li><b>.switched</b>: only where objects are seen that take another level at frame 0 or later</li>\n";
         if (study_.referenceFinest)
             html += "<li><b>.finest</b>: against the scene at its finest levels, so that what a coarser level loses counts too</li>\n";
@@ -156,16 +156,24 @@ private:
                 .about = std::move(about)};
     }
 
+    /// What a metric of sequences says first is said of the frame after the first.
+    int shownOf(const std::string& metric, const std::vector<const Cell*>& cells) const {
+        const auto has = [&](const Cell* cell) { return cell->offset >= shown_ && cell->metrics.contains(metric); };
+        const auto found = std::ranges::find_if(cells, has);
+        return found == cells.end() ? shown_ : (*found)->offset;
+    }
+
     std::string errorAlong(const Measure& measure, const std::vector<const Cell*>& cells, bool time) const {
         const std::string metric = measure.name();
+        const int shown = shownOf(metric, cells);
         LineChart chart{.title = metric + (time ? " against time" : " against rays") +
-                                 (study_.measure.size() > 1 ? fmt::format(", frame {}", shown_) : ""),
+                                 (study_.measure.size() > 1 ? fmt::format(", frame {}", shown) : ""),
                         .xLabel = time ? "time of the frame, ms (" + device_ + ")" : "rays a pixel",
                         .yLabel = axisName(measure),
                         .logX = true,
                         .logY = isError(measure)};
         for (const Cell* cell : cells) {
-            if (cell->offset != shown_ || !cell->metrics.contains(metric)) continue;
+            if (cell->offset != shown || !cell->metrics.contains(metric)) continue;
             const Estimate& e = cell->metrics.at(metric);
             ChartPoint point = pointOf(time ? cell->milliseconds : cell->rays.mean / pixels_, e,
                                        fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell),
@@ -179,7 +187,9 @@ private:
     /// `relative`: the error as a multiple of the first measured frame's, which shows what an event does to a technique whatever its level.
     std::string errorByFrame(const Measure& measure, const std::vector<const Cell*>& cells, bool relative) const {
         const std::string metric = measure.name();
-        LineChart chart{.title = relative ? fmt::format("Stability: {} against that of frame {}", metric, study_.measure.front())
+        const auto known = std::ranges::find_if(cells, [&](const Cell* cell) { return cell->metrics.contains(metric); });
+        const int start = known == cells.end() ? study_.measure.front() : (*known)->offset;
+        LineChart chart{.title = relative ? fmt::format("Stability: {} against that of frame {}", metric, start)
                                           : metric + " against the frame",
                         .xLabel = "frame, counted from the event",
                         .yLabel = relative ? metric + ", ratio" : axisName(measure),
@@ -187,7 +197,7 @@ private:
                         .logY = isError(measure)};
         const Cell* first = nullptr;
         for (const Cell* cell : cells) {
-            if (cell->offset == study_.measure.front()) first = cell;
+            if (cell->offset == start) first = cell;
             if (!first || !cell->metrics.contains(metric)) continue;
             const Estimate e = relative ? estimateRatio(cell->values.at(metric), first->values.at(metric)) : cell->metrics.at(metric);
             seriesNamed(chart.series, labelOf(*cell))

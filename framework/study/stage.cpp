@@ -5,6 +5,7 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
+#include <framework/study/motions.h>
 #include <framework/study/stage.h>
 #include <framework/study/switched_masks.h>
 
@@ -240,6 +241,11 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
 std::vector<std::vector<bool>> Stage::switchedMasks(std::size_t index) {
     open();
     return lodestir::switchedMasks({study_, study_.scenes[index], scene(index), libraries_, *device_, rays_});
+}
+
+std::vector<ImageData> Stage::motions(std::size_t index) {
+    open();
+    return measuredMotions({study_, study_.scenes[index], scene(index), libraries_, *device_, rays_});
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.

@@ -67,6 +67,8 @@ public:
     /// Of each measured frame, the pixels whose centres see an object that takes another level at the event or later, up to the last
     /// measured frame, by the scene's own policy. Error when there is none.
     std::vector<std::vector<bool>> switchedMasks(std::size_t scene);
+    /// Of each measured frame, where the frame before showed what it shows: measuredMotions().
+    std::vector<ImageData> motions(std::size_t scene);
 
 private:
     ImageData renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half);

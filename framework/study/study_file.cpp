@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include <framework/image/metrics.h>
+#include <framework/image/temporal.h>
 #include <framework/scene/fields.h>
 #include <framework/study/study_file.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 namespace lodestir {
@@ -41,7 +42,10 @@ public:
             readRuns(fields);
         } else {
             attempt([&] { readSeeds(fields.require("seeds")); });
-            study_.metrics = readNames(fields.find("metrics"), "metric", metricNames(), {"relmse", "mse"});
+            std::vector<std::string> metrics = metricNames();
+            std::ranges::copy(temporalMetricNames(), std::back_inserter(metrics));
+            study_.metrics = readNames(fields.find("metrics"), "metric", metrics, {"relmse", "mse"});
+            checkSteps(fields.find("metrics"));
             study_.charts = readNames(fields.find("charts"), "chart", chartNames, chartNames);
             readMask(fields);
         }
@@ -177,6 +181,16 @@ private:
             throw Error(value.where(), fmt::format("a parameter's value can't be {}", value.kindName()),
                         "lists of values stand in \"vary\"");
         return name;
+    }
+
+    /// Metrics of sequences need two measured frames in a row.
+    void checkSteps(const Json* metrics) {
+        const auto follows = [](int before, int frame) { return before + 1 == frame; };
+        if (!metrics || !metrics->isArray() || std::ranges::adjacent_find(study_.measure, follows) != study_.measure.end()) return;
+        for (const Json& item : metrics->items())
+            if (item.isString() && isTemporal(item.asString()))
+                problems_.add(item.where(), fmt::format("\"{}\" needs two measured frames in a row", item.asString()),
+                              "add the frame before to \"measure\"");
     }
 
     void readMask(Fields& fields) {

@@ -116,7 +116,10 @@ std::string summaryText(const Study& study, const Summary& summary) {
                                 cell.rays.mean / (double(study.size.x) * study.size.y));
             for (const Measure& measure : measuresOf(study)) {
                 const auto found = cell.metrics.find(measure.name());
-                if (found == cell.metrics.end()) continue;
+                if (found == cell.metrics.end()) {  // of a sequence, and the first of it
+                    text += fmt::format(" {:>30}", "-");
+                    continue;
+                }
                 const Estimate& e = found->second;
                 text += fmt::format(" {:>30}", std::isnan(e.halfWidth) ? fmt::format("{:.4g}", e.mean)
                                                                        : fmt::format("{:.4g} +- {:.2g}", e.mean, e.halfWidth));

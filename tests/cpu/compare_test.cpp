@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 namespace lodestir {
@@ -85,6 +86,32 @@ TEST_F(Compare, MapsAreWritten) {
               (folder / "map.png").string() + ": mse per pixel, black is 0, pale yellow is 2 and more\n");
     EXPECT_GT(readImage(folder / "map.png").at(0, 0, 1), 0.9f);
     EXPECT_THROW(compare({"x.exr", "r.exr", "--map", "map.jpg"}), Error);
+}
+
+TEST_F(Compare, SequencesAreMeansOverFramesAndSteps) {
+    for (int t = 0; t < 3; ++t) {
+        writeImage(folder / ("s." + std::to_string(t) + ".exr"), {1, 1, 3, {1.0f + float(t), 1.0f + float(t), 1.0f + float(t)}});
+        writeImage(folder / ("q." + std::to_string(t) + ".exr"), {1, 1, 3, {1, 1, 1}});
+    }
+    const auto value = [&](std::vector<std::string> arguments, const char* metric) {
+        arguments.insert(arguments.end(), {"--json", "--exposure", "1"});
+        const Json json = Json::parse(compare(std::move(arguments)), "stdout");
+        return json.find(metric)->asNumber();
+    };
+    EXPECT_DOUBLE_EQ(value({"s.%d.exr", "q.%d.exr", "--metrics", "mse"}, "mse"), (0 + 1 + 4) / 3.0);
+    const double e1 = std::log2(1.5), e2 = 1;  // of brightness log2(1 + Y), against 1
+    EXPECT_NEAR(value({"s.%d.exr", "q.%d.exr"}, "flicker_uncorrelated"), (e1 * e1 + (e2 - e1) * (e2 - e1)) / 4, 1e-6);
+    EXPECT_NEAR(value({"s.%d.exr", "q.%d.exr"}, "flicker_correlated"), (0 + e1 * e2) / 2, 1e-6);
+    EXPECT_NEAR(value({"s.%d.exr", "q.0.exr", "--metrics", "flicker_correlated"}, "flicker_correlated"), (0 + e1 * e2) / 2, 1e-6)
+        << "one image stands for a reference that is still";
+    // A step needs two frames in a row.
+    std::filesystem::remove(folder / "s.1.exr");
+    EXPECT_DOUBLE_EQ(value({"s.%d.exr", "q.%d.exr", "--metrics", "mse"}, "mse"), 2);
+    EXPECT_THROW(compare({"s.%d.exr", "q.%d.exr", "--metrics", "tflip"}), Error);
+    std::filesystem::remove(folder / "q.2.exr");
+    EXPECT_THROW(compare({"s.%d.exr", "q.%d.exr", "--metrics", "mse"}), Error) << "frame 2 has no reference";
+    EXPECT_THROW(compare({"x.exr", "r.exr", "--metrics", "tflip"}), Error);
+    EXPECT_THROW(compare({"x.exr", "q.%d.exr"}), Error);
 }
 
 TEST_F(Compare, WrongUseAndWrongFiles) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Error metrics against values computed by hand.
 #include <framework/core/error.h>
+#include <framework/image/aces.h>
 #include <framework/image/metrics.h>
 #include <framework/image/srgb.h>
 
@@ -104,6 +105,43 @@ TEST(Metrics, RefuseWhatCannotBeCompared) {
               "the images cannot be compared: the test has 4 x 3 pixels of 3 channels, the reference 5 x 3 pixels of 1 channels");
     EXPECT_EQ(refusal("mse", makeImage(0, 0, 3), makeImage(0, 0, 3)), "the images cannot be compared: they have no pixels");
     EXPECT_EQ(refusal("relsme", makeImage(1, 1, 1), makeImage(1, 1, 1)), "unknown metric \"relsme\"; did you mean \"relmse\"?");
+}
+
+/// A vertical edge in the middle of 8 x 8 pixels, `low` to the left and `high` to the right.
+ImageData edge(float low, float high) {
+    ImageData image = makeImage(8, 8, 1);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x) image.at(x, y, 0) = x < 4 ? low : high;
+    return image;
+}
+
+// If this fails, GMSD is not that of its paper: another filter, another constant, or no means of 2 x 2 pixels.
+TEST(Metrics, GradientDeviationOfAnEdgeByHand) {
+    const ImageData r = edge(0.1f, 0.8f), flat = edge(0.4f, 0.4f);
+    // On 4 x 4 means the columns beside the edge have the gradient h, the outer ones none. Prewitt: three rows of differences, each / 3.
+    const auto luma = [](float value) { return double(encodeSrgb(float(toneMapAces(double(value))))); };
+    const double h = luma(0.8f) - luma(0.1f), similar = 0.0026 / (h * h + 0.0026);
+    EXPECT_NEAR(evaluate("gmsd", flat, r, asIs), (1 - similar) / 2, 1e-6) << "half the pixels at 1, half at `similar`";
+    const ImageData map = errorMap("gmsd", flat, r, asIs);
+    EXPECT_NEAR(double(map.at(0, 0, 0)), 0, 1e-6);
+    EXPECT_NEAR(double(map.at(3, 7, 0)), 1 - similar, 1e-6);
+    const double weak = luma(0.5f) - luma(0.1f), both = (2 * weak * h + 0.0026) / (weak * weak + h * h + 0.0026);
+    EXPECT_NEAR(evaluate("gmsd", edge(0.1f, 0.5f), r, asIs), (1 - both) / 2, 1e-6);
+    EXPECT_NEAR(evaluate("gmsd", edge(0.8f, 0.1f), r, asIs), 0, 1e-6) << "strength counts, not direction";
+    EXPECT_NEAR(evaluate("gmsd", edge(0.3f, 0.3f), flat, asIs), 0, 1e-12) << "an offset has no gradient";
+    ImageData odd = makeImage(5, 3, 3);
+    odd.at(4, 2, 1) = std::nanf("");
+    EXPECT_TRUE(std::isnan(evaluate("gmsd", odd, makeImage(5, 3, 3), asIs))) << "the last odd pixel counts";
+}
+
+TEST(Metrics, ManyAtOnceAreTheSameAsOneByOne) {
+    ImageData x = makeImage(24, 20, 3), r = makeImage(24, 20, 3);
+    for (std::size_t i = 0; i < x.values.size(); ++i) x.values[i] = float(i % 7) / 5, r.values[i] = float(i % 5) / 4 + 0.1f;
+    const std::vector<std::string> names = metricNames();
+    const auto all = evaluateAll(names, x, r);
+    ASSERT_EQ(all.size(), names.size());
+    for (const auto& [name, value] : all) EXPECT_EQ(value, evaluate(name, x, r)) << name;
+    EXPECT_THROW(evaluateAll({"mse", "no such"}, x, r), Error);
 }
 
 TEST(Metrics, OnlyTheMaskCounts) {

@@ -94,6 +94,41 @@ TEST_F(StudyRunTest, MeasuresResumesAndReports) {
     EXPECT_EQ(readText(folder / "shards/report.html").find("still missing"), std::string::npos);
 }
 
+TEST_F(StudyRunTest, FlickerIsMeasuredOfFramesInARow) {
+    OrderedJson json = readJson(folder / "study.json");
+    const std::string graph = json["reference"]["graph"];
+    json["reference"]["spp"] = 1024;
+    json["frames"] = {{"measure", {0, 1, 2, 4}}};
+    json["techniques"] = {{"new noise", {{"graph", graph}, {"variant", "no accumulation"}, {"set", {{"trace.spp", 16}}}}},
+                          {"too dark", {{"graph", graph}, {"variant", "no accumulation"}, {"set", {{"trace.spp", 64}, {"trace.bounces", 0}}}}}};
+    json["metrics"] = {"mse", "flicker_uncorrelated", "flicker_correlated", "tflip"};
+    json["charts"] = {"error_vs_time", "error_vs_frame", "stability"};
+    write("study.json", json);
+    const Output output = study("out");
+    ASSERT_EQ(output.exitCode, 0) << output.err;
+    std::map<std::string, double> isNew, stays;
+    for (const OrderedJson& row : rows("out/results.jsonl")) {
+        const OrderedJson& metrics = row["metrics"];
+        EXPECT_TRUE(metrics.contains("mse"));
+        const bool follows = row["frame"] == 1 || row["frame"] == 2;
+        EXPECT_EQ(metrics.contains("tflip"), follows) << row["frame"] << ": frames 0 and 4 have no measured frame right before them";
+        if (!follows) continue;
+        EXPECT_GT(metrics["tflip"].get<double>(), 0);
+        isNew[row["technique"]] += metrics["flicker_uncorrelated"].get<double>() / 4;
+        stays[row["technique"]] += metrics["flicker_correlated"].get<double>() / 4;
+    }
+    EXPECT_GT(isNew["new noise"], 3 * std::abs(stays["new noise"]));
+    EXPECT_GT(stays["too dark"], 10 * isNew["too dark"]);
+    EXPECT_GT(isNew["too dark"], 0);
+    EXPECT_NE(readText(folder / "out/report.html").find("Stability: tflip against that of frame 1"), std::string::npos);
+
+    json["frames"]["measure"] = {0, 2};
+    write("study.json", json);
+    const Output refused = study("other");
+    EXPECT_EQ(refused.exitCode, 1);
+    EXPECT_NE(refused.err.find("\"tflip\" needs two measured frames in a row"), std::string::npos) << refused.err;
+}
+
 TEST_F(StudyRunTest, WrongStudiesAreRefusedBeforeAnythingRuns) {
     OrderedJson json = readJson(folder / "study.json");
     json["techniques"]["path tracing"]["vary"] = {{"trace.spp", {1, 0}}, {"trace.sp", {2}}};
