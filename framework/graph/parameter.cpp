@@ -25,7 +25,7 @@ std::string Parameter::typeText() const {
     if (std::holds_alternative<bool>(initial)) return "bool";
     if (std::holds_alternative<int>(initial)) return fmt::format("int {}..{}", std::get<int>(low), std::get<int>(high));
     if (std::holds_alternative<float>(initial)) return fmt::format("float {}..{}", std::get<float>(low), std::get<float>(high));
-    return "text";
+    return isFile ? "file" : "text";
 }
 
 }  // namespace lodestir

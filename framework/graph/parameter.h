@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/core/api.h>
 
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -14,7 +15,7 @@ namespace lodestir {
 
 class Pass;
 
-/// bool, int (also the index of a choice), float, or text (never seen by shaders).
+/// bool, int (also the index of a choice), float, or text (also the path of a file; never seen by shaders).
 using Value = std::variant<bool, int, float, std::string>;
 
 struct LODESTIR_API Parameter {
@@ -22,9 +23,10 @@ struct LODESTIR_API Parameter {
     Value value, initial, low, high;         ///< low and high: for int and float
     std::vector<std::string_view> choices;   ///< names of an enum's values, else empty
     bool constant;                           ///< a specialization constant: only for array sizes and loop shapes
+    bool isFile = false;                     ///< the path of a file that the pass reads: has to be there, relative to the graph file
 
     bool isChoice() const { return !choices.empty(); }
-    std::string typeText() const;            ///< "bool", "int 1..16", "float 0..10", "nee | bsdf | both", "text"
+    std::string typeText() const;            ///< "bool", "int 1..16", "float 0..10", "nee | bsdf | both", "text", "file"
 
 protected:
     /// Enters the parameter into the pass's list.
@@ -35,7 +37,7 @@ template <class T> struct Range {
     T low, high;
 };
 
-/// A uniform: changing it costs nothing. T is bool, int, float, std::string, or an enum whose values count from 0.
+/// A uniform: changing it costs nothing. T is bool, int, float, std::string, std::filesystem::path, or an enum whose values count from 0.
 template <class T, bool C = false> struct Param : Parameter {
     static_assert(std::is_same_v<T, int> || std::is_same_v<T, float>, "bool, int, float, std::string or an enum");
     Param(Pass* pass, std::string_view n, T initialValue, Range<T> range, std::string_view d) : Parameter(pass, n, d, initialValue, range.low, range.high, C) {}
@@ -48,6 +50,11 @@ template <bool C> struct Param<bool, C> : Parameter {
 template <> struct Param<std::string, false> : Parameter {
     Param(Pass* pass, std::string_view n, std::string initialValue, std::string_view d) : Parameter(pass, n, d, initialValue, {}, {}, false) {}
     operator const std::string&() const { return std::get<std::string>(value); }
+};
+/// A file that the pass reads, whole path and all; empty where none was named.
+template <> struct Param<std::filesystem::path, false> : Parameter {
+    Param(Pass* pass, std::string_view n, std::string_view d) : Parameter(pass, n, d, std::string(), {}, {}, false) { isFile = true; }
+    operator std::filesystem::path() const { return std::get<std::string>(value); }
 };
 template <class T, bool C>
     requires std::is_enum_v<T>

@@ -10,6 +10,7 @@
 //
 // The shader starts with #include "pass.glsl", which is made from this declaration.
 #pragma once
+#include <framework/core/error.h>  // what execute() throws
 #include <framework/graph/parameter.h>
 #include <framework/graph/port.h>
 #include <framework/shaders/trace/ray.h>

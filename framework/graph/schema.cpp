@@ -31,6 +31,7 @@ Json portFacts(const Port& port) {
 
 const char* kindName(const Parameter& p) {
     if (p.isChoice()) return "choice";
+    if (p.isFile) return "file";
     static constexpr std::array names{"bool", "int", "float", "text"};
     return names[p.initial.index()];
 }

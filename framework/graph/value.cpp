@@ -28,6 +28,16 @@ int readChoice(const Parameter& p, const Json& value, const std::string& what) {
     throw Error(value.where(), fmt::format("{} can't be \"{}\"", what, name), didYouMean(name, known));
 }
 
+/// Relative to the folder of the file that names it; what the command line names, to the current folder.
+std::string readFile(const Json& value, const std::string& what) {
+    const Path named = value.asString(what);
+    if (named.empty()) return {};
+    const Path graph = value.where().file;
+    const Path whole = std::filesystem::absolute(std::filesystem::is_regular_file(graph) ? graph.parent_path() / named : named).lexically_normal();
+    if (!std::filesystem::is_regular_file(whole)) throw Error(value.where(), fmt::format("{}: there is no file {}", what, whole.string()));
+    return whole.string();
+}
+
 }  // namespace
 
 Value readValue(const Parameter& p, const Json& value, std::string_view owner) {
@@ -39,7 +49,7 @@ Value readValue(const Parameter& p, const Json& value, std::string_view owner) {
         // As a float: 0.1 written in a file is the 0.1f that a pass gives as its limit.
         return within<float>(p, value, what, static_cast<float>(value.asNumber(what)));
     }
-    return value.asString(what);
+    return p.isFile ? readFile(value, what) : value.asString(what);
 }
 
 Json writeValue(const Parameter& p, const Value& value) {

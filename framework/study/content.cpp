@@ -81,8 +81,11 @@ Hash contentOf(const Graph& graph) {
     text.remove("scene");
     text.remove("about");
     hash.add(text.dump(-1));
-    for (const GraphNode& node : graph.nodes)
+    for (const GraphNode& node : graph.nodes) {
         if (node.plugin) addSources(hash, *node.plugin);
+        for (const Parameter* parameter : node.pass->parameters)
+            if (const auto* file = std::get_if<std::string>(&parameter->value); parameter->isFile && !file->empty()) hash.add(readBytes(*file));
+    }
     return hash;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A graph in this process, frame by frame, with ports to be read.
 #pragma once
+#include "source_folder.h"
+
 #include <framework/app/session.h>
 #include <framework/core/json.h>
 
@@ -14,9 +16,6 @@
 
 namespace lodestir::test {
 
-using OrderedJson = nlohmann::ordered_json;
-
-inline const Path sourceFolder = LODESTIR_SOURCE_DIR;
 inline Path sceneFile(const std::string& name) { return sourceFolder / "scenes" / (name + ".json"); }
 
 /// A folder that lives as long as this.

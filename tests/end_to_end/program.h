@@ -2,6 +2,7 @@
 // What tests of the whole program start from: a folder of their own, the program run in it with validation, its images and JSON read back.
 #pragma once
 #include "process.h"
+#include "source_folder.h"
 
 #include <framework/core/error.h>
 #include <framework/core/files.h>
@@ -19,9 +20,7 @@
 namespace lodestir::test {
 
 using Arguments = std::vector<std::string>;
-using OrderedJson = nlohmann::ordered_json;
 
-inline const Path sourceFolder = LODESTIR_SOURCE_DIR;
 /// Real models for tests; the folder may be absent.
 inline const Path assetFolder = (sourceFolder / "../shared/assets").lexically_normal();
 
