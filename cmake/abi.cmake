@@ -31,6 +31,7 @@ foreach(header ${shared})
     lodestir_gather_headers(${header} headers)
 endforeach()
 list(SORT headers)
+set(LODESTIR_ABI_HEADERS ${headers})
 
 string(TOUPPER "${CMAKE_BUILD_TYPE}" type)
 set(identity "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_STANDARD} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${type}} ${LODESTIR_SANITIZE}")

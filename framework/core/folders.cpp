@@ -4,7 +4,6 @@
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <system_error>
@@ -35,11 +34,12 @@ Path libraryFolder() {
     return fs::weakly_canonical(found ? Path(info.dli_fname) : fs::read_symlink("/proc/self/exe", none), none).parent_path();
 }
 
-/// An installed program must not pick up the tree it was built in, though that may still exist.
+/// An installed program must not pick up the tree it was built in, though that may still exist, and the prefix may even lie inside it. Tests are
+/// in a folder of their own, and hold the framework.
 bool runsFromBuild() {
     std::error_code none;
     const Path build = fs::weakly_canonical(LODESTIR_BUILD_DIR, none), library = libraryFolder();
-    return std::mismatch(build.begin(), build.end(), library.begin(), library.end()).first == build.end();
+    return library == build || library == build / "tests";
 }
 
 /// share/lodestir/<name> of the install prefix. The library lies in <prefix>/lib, /bin or /lib/<architecture>.

@@ -23,11 +23,18 @@ Path libraryOf(const Plugin& plugin) {
     return found ? Path(info.dli_fname) : Path();
 }
 
+/// How to get a library that fits: ours, or one of an extra folder.
+std::string rebuildHint(const std::string& folder, const Path& file) {
+    std::error_code none;
+    const bool ours = fs::equivalent(file.parent_path().parent_path(), passFolder(), none);
+    return ours ? "run: cmake --build build --target pass_" + folder : "build it again against the framework that it is to run with";
+}
+
 void checkAbi(const Plugin& plugin, const std::string& folder, const Path& file, const Where& where) {
     if (frameworkAbi() == plugin.abi) return;
     throw Error(where.file.empty() ? Where{file.string()} : where,
                 "pass library \"" + folder + "\" was built against framework " + plugin.abi + ", this is " + std::string(frameworkAbi()),
-                "run: cmake --build build --target pass_" + folder);
+                rebuildHint(folder, file));
 }
 
 }  // namespace
@@ -75,7 +82,7 @@ const std::vector<const Plugin*>& PluginLibraries::library(const std::string& fo
     if (!handle) {
         const char* reason = ::dlerror();
         throw Error(where, "pass library \"" + folder + "\" can't be loaded: " + (reason ? reason : "unknown reason"),
-                    "run: cmake --build build --target pass_" + folder);
+                    rebuildHint(folder, file));
     }
     using List = const Plugin* (*)();
     const auto list = reinterpret_cast<List>(::dlsym(handle, entryPoint));

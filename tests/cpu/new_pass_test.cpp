@@ -42,7 +42,7 @@ TEST(NewPass, BuildsByHandAndIsFoundOutsideTheTree) {
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.is_regular_file()) files.insert(entry.path().filename().string());
     }
-    EXPECT_EQ(files, (std::set<std::string>{"shiny_thing.comp", "shiny_thing.cpp", "shiny_thing.json"}));
+    EXPECT_EQ(files, (std::set<std::string>{"CMakeLists.txt", "shiny_thing.comp", "shiny_thing.cpp", "shiny_thing.json"}));
 
     const Outcome built = shell(lineOf(made.output, "build: "));
     ASSERT_EQ(built.status, 0) << built.output;

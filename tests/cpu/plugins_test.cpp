@@ -88,7 +88,7 @@ TEST_F(Plugins, SayWhatIsWrong) {
     EXPECT_EQ(complaint(libraries, "singel"), "g.json:3:7: no pass type \"singel\"; did you mean \"single\"?");
     EXPECT_EQ(complaint(libraries, "stale"),
               "g.json:3:7: pass library \"stale\" was built against framework 0123456789abcdef, this is " LODESTIR_ABI
-              "; run: cmake --build build --target pass_stale");
+              "; build it again against the framework that it is to run with");
     EXPECT_EQ(complaint(libraries, "empty"),
               "g.json:3:7: \"" + (root() / "empty/libempty.so").string() + "\" exports no pass; end its .cpp with LODESTIR_PASS(...)");
     EXPECT_NE(complaint(libraries, "broken").find("pass library \"broken\" can't be loaded: "), std::string::npos)

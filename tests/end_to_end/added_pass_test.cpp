@@ -29,7 +29,7 @@ protected:
 TEST_F(NewPass, InAnotherFolderBuildsAndRunsAndTouchesNothing) {
     const Output before = gitStatus();
     const std::string made = shell((sourceFolder / "scripts/new_pass").string() + " double_light --in " + (folder / "mine").string()).out;
-    EXPECT_EQ(filesOf(folder / "mine/double_light"), (std::set<std::string>{"double_light.comp", "double_light.cpp", "double_light.json"}));
+    EXPECT_EQ(filesOf(folder / "mine/double_light"), (std::set<std::string>{"CMakeLists.txt", "double_light.comp", "double_light.cpp", "double_light.json"}));
     ASSERT_NE(lineAfter(made, "build:"), "") << made;
     ASSERT_NE(lineAfter(made, "run:"), "") << made;
     shell(lineAfter(made, "build:"));
