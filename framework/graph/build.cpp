@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -294,7 +294,7 @@ private:
     std::string textOf(const std::vector<Source>& sources) const {
         constexpr std::size_t listed = 5;
         std::vector<std::string> names;
-        for (const Source& source : sources | std::views::take(listed))
+        for (const Source& source : std::span(sources).first(std::min(listed, sources.size())))
             names.push_back(fmt::format("{}.{}", graph_.nodes[std::size_t(source.node)].name, graph_.port(source).name));
         return fmt::format("{}", fmt::join(names, ", "));
     }

@@ -38,7 +38,7 @@ private:
     /// `cycle`: each node needs the next, and the last needs the first.
     void keep(std::vector<int> cycle) {
         std::ranges::reverse(cycle);
-        std::ranges::rotate(cycle, std::ranges::min_element(cycle));
+        std::rotate(cycle.begin(), std::ranges::min_element(cycle), cycle.end());
         cycles_.push_back(std::move(cycle));
     }
 

@@ -198,7 +198,7 @@ private:
             if (name == "frame")
                 problems_.add(value.keyWhere(), "\"frame\" can't be the name of a pass", "--set frame.seed=1 means the frame");
             d.nodes.push_back({.name = name, .where = value.keyWhere()});
-            attempt([&] { readNode(value, d.nodes.back()); });
+            attempt([&, &node = value] { readNode(node, d.nodes.back()); });
         }
     }
 
@@ -223,7 +223,7 @@ private:
             });
         if (const Json* in = value.find("in"))
             attempt([&] {
-                for (const auto& [port, edge] : in->members("\"in\"")) attempt([&] { node.edges.push_back(readEdge(port, edge)); });
+                for (const Json::Member& input : in->members("\"in\"")) attempt([&] { node.edges.push_back(readEdge(input.first, input.second)); });
             });
         if (const Json* set = value.find("set"))
             attempt([&] {

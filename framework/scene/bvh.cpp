@@ -260,7 +260,9 @@ std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size
 }
 
 Bvh buildBvh(const BvhInput& input) {
-    const auto& [positions, triangles, masks, wanted] = input;
+    const auto& positions = input.positions;
+    const auto& triangles = input.triangles;
+    const auto& masks = input.masks;
     if (triangles.size() >= maxTriangles) {
         throw Error(fmt::format("a mesh of {} triangles is too large; at most {} fit", triangles.size(), maxTriangles - 1), "simplify it");
     }
@@ -284,7 +286,7 @@ Bvh buildBvh(const BvhInput& input) {
         const bool masked = std::ranges::any_of(std::span(references).subspan(n.first, n.count), isMasked);
         return bvh_ref::leaf | (n.count - 1) << 28 | (masked ? bvh_ref::masked : 0) | n.first;
     };
-    writeNodes(std::span(references), boundsOfBox(wanted), 4, leafReference, bvh);
+    writeNodes(std::span(references), boundsOfBox(input.grid), 4, leafReference, bvh);
 
     bvh.order.resize(references.size());
     bvh.triangles.resize(references.size());

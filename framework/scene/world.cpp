@@ -224,7 +224,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
         std::vector<std::uint32_t> marked = levels;
         marked.push_back(1);  // they differ from those before: made anew only then
         gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(marked), "levels");
-        levels_ = std::make_shared<const Levels>(std::move(levels), std::move(buffer));
+        levels_ = std::make_shared<const Levels>(Levels{std::move(levels), std::move(buffer)});
     }
     World w{};
     w.nodes = moving_->nodes.address();

@@ -265,13 +265,13 @@ std::string drawIntervals(const std::string& title, const std::string& xLabel, c
     return open(bottom + 48, title) + svg + "</svg>\n";
 }
 
-std::string drawGrid(const std::string& title, int columns, const std::vector<double>& values, double top) {
+std::string drawGrid(const std::string& title, int columns, const std::vector<double>& values, double largest) {
     constexpr double cell = 22;
     const auto rows = (values.size() + std::size_t(columns) - 1) / std::size_t(columns);
     std::string svg = fmt::format("<figure><svg viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" role=\"img\">\n",
                                   cell * columns, cell * double(rows));
     for (std::size_t i = 0; i < values.size(); ++i) {
-        const double share = std::clamp(values[i] / top, -1.0, 1.0);
+        const double share = std::clamp(values[i] / largest, -1.0, 1.0);
         const int fade = std::isfinite(values[i]) ? int(255 * (1 - std::abs(share))) : 0;
         svg += fmt::format(
             "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\" fill=\"rgb({},{},{})\" stroke=\"#ccc\"><title>({}, {}): "

@@ -48,9 +48,9 @@ struct Interval {
 /// Horizontal intervals, one below the other, with a line at 0 and a band from -band to +band.
 std::string drawIntervals(const std::string& title, const std::string& xLabel, const std::vector<Interval>& intervals, double band);
 
-/// A grid of squares, row by row from the top, coloured from blue (-top) over white (0) to red (+top), each with its value when the pointer
-/// rests on it.
-std::string drawGrid(const std::string& title, int columns, const std::vector<double>& values, double top);
+/// A grid of squares, row by row from the top, coloured from blue (-largest) over white (0) to red (+largest), each with its value when the
+/// pointer rests on it.
+std::string drawGrid(const std::string& title, int columns, const std::vector<double>& values, double largest);
 
 /// Text with the characters escaped that mean something in HTML and SVG.
 std::string escapeHtml(const std::string& text);

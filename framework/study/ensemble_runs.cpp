@@ -118,7 +118,9 @@ EnsembleStage::Series& EnsembleStage::seriesOf(const EnsembleChunk& chunk) {
 }
 
 std::vector<ChunkFrame> EnsembleStage::render(const EnsembleChunk& chunk) {
-    auto& [_, staged, runner] = seriesOf(chunk);
+    Series& series = seriesOf(chunk);
+    auto& staged = series.staged;
+    auto& runner = series.runner;
     const bool freshStarts = !chunk.technique || !hasHistory(staged);  // each frame alone, without warm-up
     std::vector<FrameSum> sums(study_.measure.size());
     const auto run = [&](std::uint32_t seed, int from, int to) {

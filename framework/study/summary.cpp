@@ -49,7 +49,7 @@ std::set<std::string> finishedRuns(const Study& study, const std::vector<ResultR
     for (const ResultRow& row : rows) offsets[row.run].insert(row.offset);
     std::set<std::string> finished;
     for (const auto& [run, measured] : offsets)
-        if (std::ranges::all_of(study.measure, [&](int offset) { return measured.contains(offset); })) finished.insert(run);
+        if (std::ranges::all_of(study.measure, [&there = measured](int offset) { return there.contains(offset); })) finished.insert(run);
     return finished;
 }
 
