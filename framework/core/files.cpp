@@ -2,6 +2,7 @@
 // Reads files whole and writes them aside first, so that no reader ever sees half a file.
 #include <framework/core/error.h>
 #include <framework/core/files.h>
+#include <framework/core/is_file.h>
 
 #include <cerrno>
 #include <fcntl.h>
@@ -18,7 +19,9 @@ namespace fs = std::filesystem;
 /// An open file, closed at the end of its scope.
 class File {
 public:
-    File(const Path& path, int flags) : path_(path), handle_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    File(const Path& path, int flags) : File(path, flags, path) {}
+    /// `known` is the name that people know it by.
+    File(const Path& path, int flags, const Path& known) : path_(known), handle_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
     ~File() {
         if (handle_ >= 0) ::close(handle_);
     }
@@ -26,6 +29,12 @@ public:
     File& operator=(const File&) = delete;
 
     bool isOpen() const { return handle_ >= 0; }
+
+    /// Gives a file without a name (O_TMPFILE) one that nobody has. False when it can't, errno says why.
+    bool name(const Path& name) const {
+        const std::string self = "/proc/self/fd/" + std::to_string(handle_);
+        return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    }
 
     [[noreturn]] void fail(const char* what, int reason) const {
         throw Error(Where{path_.string()}, std::string(what) + ": " + std::generic_category().message(reason));
@@ -73,6 +82,7 @@ void refuseGitLfsPointer(const Path& path, std::string_view content) {
 }
 
 template <class Bytes> Bytes readWhole(const Path& path) {
+    if (path.empty()) throw Error("a file without a name cannot be read");
     std::error_code none;
     const fs::file_status status = fs::status(path, none);
     if (fs::is_character_file(status) || fs::is_block_file(status)) throw Error(Where{path.string()}, "cannot be read: it is a device, which may never end");
@@ -98,49 +108,91 @@ void makeFolder(const Path& folder) {
     if (reason) throw Error(Where{folder.string()}, "the folder cannot be made: " + reason.message());
 }
 
-/// Takes a name beside the target that no other process or thread has. The name starts with a dot, so that listings and globs pass over it.
-Path reserveAside(const Path& target) {
+/// Takes a name beside the target that no other process or thread has, with take(name), which fails with EEXIST where one has it. The name
+/// starts with a dot, so that listings and globs pass over it.
+template <class Take> Path reserveAside(const Path& target, const Take& take) {
     for (int attempt = 0;; ++attempt) {
         Path aside = target.parent_path() / ("." + target.stem().string() + "." + std::to_string(::getpid()) + "-" +
                                              std::to_string(attempt) + target.extension().string());
-        File file(aside, O_WRONLY | O_CREAT | O_EXCL);
-        if (file.isOpen()) return aside;
+        if (take(aside)) return aside;
         if (errno != EEXIST) throw Error(Where{target.string()}, "cannot be written: " + std::generic_category().message(errno));
     }
 }
 
+/// What a link means is replaced, not the link.
+Path followed(const Path& path) {
+    std::error_code none;
+    const Path end = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
+    return end.empty() ? path : end;  // a link that leads round in a circle is replaced
+}
+
+void replace(const Path& aside, const Path& target) {
+    std::error_code reason;
+    fs::rename(aside, target, reason);
+    if (reason) throw Error(Where{target.string()}, "cannot be written: " + reason.message());
+}
+
+/// Devices and pipes such as /dev/null are written to; they must not be renamed over. Error for a folder.
+bool isDevice(const Path& target) {
+    std::error_code none;
+    const fs::file_status status = fs::status(target, none);
+    if (fs::is_directory(status)) throw Error(Where{target.string()}, "cannot be written: it is a folder");
+    return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+/// Writes into a file that has no name until it is whole, so that not even a killed process leaves a scrap. False where the file system has
+/// no such files.
+bool writeNameless(const Path& target, std::span<const std::byte> bytes) {
+    File file(target.has_parent_path() ? target.parent_path() : Path("."), O_WRONLY | O_TMPFILE, target);
+    if (!file.isOpen()) return false;
+    file.write(bytes);
+    if (file.name(target)) return true;
+    if (errno != EEXIST) return false;
+    const Path aside = reserveAside(target, [&](const Path& name) { return file.name(name); });
+    try {
+        replace(aside, target);
+    } catch (...) {
+        std::error_code none;
+        fs::remove(aside, none);
+        throw;
+    }
+    return true;
+}
+
 }  // namespace
+
+bool isFile(const Path& path) {
+    std::error_code none;
+    return fs::is_regular_file(path, none);
+}
 
 std::string readText(const Path& path) { return readWhole<std::string>(path); }
 
 std::vector<std::byte> readBytes(const Path& path) { return readWhole<std::vector<std::byte>>(path); }
 
 void writeAside(const Path& path, const std::function<void(const Path& aside)>& write) {
-    std::error_code none;
-    // What a link means is replaced, not the link.
-    const Path target = fs::is_symlink(path, none) ? fs::weakly_canonical(path, none) : path;
-    const fs::file_status status = fs::status(target, none);
-    if (fs::is_directory(status)) throw Error(Where{path.string()}, "cannot be written: it is a folder");
-    if (fs::exists(status) && !fs::is_regular_file(status)) {  // devices and pipes such as /dev/null must not be renamed over
-        write(target);
-        return;
-    }
+    const Path target = followed(path);
+    if (isDevice(target)) return write(target);
     makeFolder(target.parent_path());
-    const Path aside = reserveAside(target);
+    const Path aside = reserveAside(target, [](const Path& name) { return File(name, O_WRONLY | O_CREAT | O_EXCL).isOpen(); });
     try {
         write(aside);
-        std::error_code reason;
-        fs::rename(aside, target, reason);
-        if (reason) throw Error(Where{path.string()}, "cannot be written: " + reason.message());
+        replace(aside, target);
     } catch (...) {
+        std::error_code none;
         fs::remove(aside, none);
         throw;
     }
 }
 
 void writeFile(const Path& path, std::span<const std::byte> bytes) {
+    const Path target = followed(path);
+    if (!isDevice(target)) {
+        makeFolder(target.parent_path());
+        if (writeNameless(target, bytes)) return;
+    }
     writeAside(path, [&](const Path& aside) {
-        File file(aside, O_WRONLY | O_CREAT | O_TRUNC);
+        File file(aside, O_WRONLY | O_CREAT | O_TRUNC, path);
         if (!file.isOpen()) file.fail("cannot be written", errno);
         file.write(bytes);
         file.close();

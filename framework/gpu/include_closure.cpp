@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A shader file together with everything that it may include, found by a scan of the #include lines alone.
+#include <framework/core/is_file.h>
 #include <framework/gpu/include_closure.h>
 
 #include <algorithm>
@@ -60,11 +61,6 @@ std::vector<FoundInclude> scan(std::string_view text) {
         begin = end + 1;
     }
     return found;
-}
-
-bool isFile(const Path& path) {
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored);
 }
 
 }  // namespace

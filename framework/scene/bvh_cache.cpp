@@ -2,6 +2,7 @@
 // Keeps built hierarchies on disk by the content they were built from.
 #include <framework/core/error.h>
 #include <framework/core/files.h>
+#include <framework/core/is_file.h>
 #include <framework/core/log.h>
 #include <framework/scene/bvh.h>
 
@@ -55,7 +56,7 @@ void writeBvh(const Path& path, const Bvh& bvh) {
 }
 
 std::optional<Bvh> readBvh(const Path& path) {
-    if (!std::filesystem::exists(path)) return {};
+    if (!isFile(path)) return {};
     const std::vector<std::byte> file = readBytes(path);
     std::span<const std::byte> bytes = file;
     Header header;

@@ -99,7 +99,9 @@ Scene loadScene(const Path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (!std::filesystem::exists(path)) throw Error(Where{path.string()}, path.empty() ? "the scene has no name" : "there is no such file");
+    std::error_code reason;
+    if (!std::filesystem::exists(path, reason))
+        throw Error(Where{path.string()}, path.empty() ? "the scene has no name" : reason ? reason.message() : "there is no such file");
     Scene scene;
     SceneFileSays says;
     if (extension == ".json") {

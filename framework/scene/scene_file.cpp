@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reading of scene files.
+#include <framework/core/is_file.h>
 #include <framework/scene/fields.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/scene_file.h>
@@ -108,8 +109,8 @@ private:
             fields.finish();
             if (!member || file.empty()) continue;
             Path path = path_.parent_path() / file;
-            if (!std::filesystem::is_regular_file(path)) path = sceneFolder() / file;
-            if (!std::filesystem::is_regular_file(path)) {
+            if (!isFile(path)) path = sceneFolder() / file;
+            if (!isFile(path)) {
                 problems_.add(member->where(), fmt::format("there is no model \"{}\" beside the scene file", file),
                               "generated models lie in the build's scenes folder");
                 path.clear();

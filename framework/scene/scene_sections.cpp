@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Environment, lights and camera of a scene file.
+#include <framework/core/is_file.h>
 #include <framework/scene/environment.h>
 #include <framework/scene/fields.h>
 #include <framework/scene/scene_sections.h>
@@ -50,7 +51,7 @@ Environment readMap(Fields& fields, const Path& folder, std::vector<std::string>
     fields.finish();
     if (!value || file.empty() || !fields.problems().empty()) return {};
     try {
-        if (!std::filesystem::is_regular_file(folder / file)) throw Error(fmt::format("there is no file \"{}\"", (folder / file).string()));
+        if (!isFile(folder / file)) throw Error(fmt::format("there is no file \"{}\"", (folder / file).string()));
         return loadEnvironmentMap(folder / file, notes);
     } catch (const Error& error) {
         const Problem& problem = error.problems()[0];

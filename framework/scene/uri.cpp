@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Percent-decoding, base64 and the reading of what a URI names.
 #include <framework/core/error.h>
+#include <framework/core/is_file.h>
 #include <framework/scene/uri.h>
 
 #include <fmt/format.h>
@@ -99,8 +100,8 @@ std::vector<std::byte> readUri(const std::string& uri, const Path& folder) {
         throw Error(fmt::format("\"{}\" is a network or absolute address", shown(uri)),
                     "put the file beside the model and name it by its path");
     Path path = folder / Path(percentDecode(uri));
-    if (!std::filesystem::exists(path)) path = folder / Path(uri);
-    if (!std::filesystem::is_regular_file(path))
+    if (!isFile(path)) path = folder / Path(uri);
+    if (!isFile(path))
         throw Error(fmt::format("file \"{}\" is missing", (folder / Path(percentDecode(uri))).string()));
     return readBytes(path);
 }

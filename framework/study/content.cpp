@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <framework/core/is_file.h>
 #include <framework/gpu/include_closure.h>
 #include <framework/study/content.h>
 
@@ -70,7 +71,7 @@ void addSources(Hash& hash, const Plugin& plugin) {
         if (entry.path().extension() == ".comp") shaders.push_back(entry.path());
     std::ranges::sort(shaders);
     for (const Path& shader : shaders) gpu::IncludeClosure(shader, includeFolders(plugin), {}).addTo(hash);
-    if (std::filesystem::is_regular_file(plugin.source)) hash.add(readText(plugin.source));
+    if (isFile(plugin.source)) hash.add(readText(plugin.source));
 }
 
 }  // namespace

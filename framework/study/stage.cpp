@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <framework/core/is_file.h>
 #include <framework/core/log.h>
 #include <framework/graph/scene_node.h>
 #include <framework/image/exr.h>
@@ -229,7 +230,7 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
     if (finest) content.add("finest");
     const auto half = [&](std::uint32_t index) {
         const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
-        if (std::filesystem::is_regular_file(file)) return readExr(file);
+        if (isFile(file)) return readExr(file);
         ImageData image = renderHalf(staged, samplesName, sceneIndex, frame, index);
         writeExr(file, image, {.attributes = {{"lodestir", staged.graph.resolved().dump(-1)}}});
         return image;

@@ -2,6 +2,7 @@
 // Reading, writing aside, hashing, and where folders lie.
 #include <framework/core/error.h>
 #include <framework/core/files.h>
+#include <framework/core/is_file.h>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <set>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -89,6 +91,54 @@ TEST_F(Files, AKilledWriterLeavesTheOldFile) {
     EXPECT_EQ(readText(path), "old");
     writeFile(path, std::string_view("new"));  // what the killed one left doesn't stand in the way
     EXPECT_EQ(readText(path), "new");
+}
+
+// If this fails, a full disk gives half a file, a scrap beside it, or no word about it.
+TEST_F(Files, AFullDiskLeavesTheOldFileAndNothingElse) {
+    const Path path = folder / "results.jsonl";
+    writeFile(path, std::string_view("old"));
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const ::rlimit limit{1000, 1000};  // as good as full: no file may grow further
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        ::signal(SIGXFSZ, SIG_IGN);
+        const std::string said = refusal([&] { writeFile(path, std::string(100'000, 'x')); });
+        ::_exit(said == path.string() + ": cannot be written: File too large" ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "no or another message";
+    EXPECT_EQ(readText(path), "old");
+    EXPECT_EQ(fileCount(), 1u);
+}
+
+// If this fails, each kill in the middle of a large file leaves its scrap on the disk for ever.
+TEST_F(Files, AKilledWriterLeavesNoScrap) {
+    const Path path = folder / "image.exr";
+    for (int round = 0; round < 8; ++round) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            const std::string content(8 << 20, 'x');
+            for (;;) writeFile(path, content);
+        }
+        ::usleep(static_cast<::useconds_t>(10'000 + 3'701 * round));
+        ::kill(child, SIGKILL);
+        ::waitpid(child, nullptr, 0);
+    }
+    const bool isThere = fs::exists(path);
+    EXPECT_TRUE(!isThere || fs::file_size(path) == 8 << 20);
+    EXPECT_LE(fileCount(), isThere ? 2u : 1u);  // only between a name and its exchange, two calls apart, could one be left
+}
+
+TEST_F(Files, NamesThatNobodyCanHaveAreNoFiles) {
+    fs::create_symlink(folder / "b", folder / "a");
+    fs::create_symlink(folder / "a", folder / "b");
+    EXPECT_FALSE(isFile(folder / "a"));
+    EXPECT_FALSE(isFile(folder / std::string(300, 'a')));
+    EXPECT_FALSE(isFile(folder));
+    EXPECT_EQ(refusal([&] { readText(""); }), "a file without a name cannot be read");
+    writeFile(folder / "a", std::string_view("new"));
+    EXPECT_EQ(readText(folder / "a"), "new");
 }
 
 TEST_F(Files, AFailedWriteLeavesTheOldFileAndNothingElse) {
