@@ -54,6 +54,29 @@ std::vector<std::string> chooseChannels(const Imf::ChannelList& channels) {
     return names;
 }
 
+/// OpenEXR holds as many lines as it compresses together, up to 256, or a row of tiles, of all channels, wanted or not.
+void checkBuffers(const Path& path, const Imf::Header& header) {
+    constexpr long long lineLimit = 1ll << 22, tileLimit = 1ll << 28, tileRowLimit = 1ll << 30;  // bytes
+    const long long width = std::max(widthOf(header.dataWindow()), 0ll);
+    long long channels = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) ++channels;
+    const long long pixel = channels * static_cast<long long>(sizeof(float)), line = width * pixel;
+    if (line > lineLimit) refuse(path, "claims lines of " + std::to_string(line) + " bytes, which is not a size this program reads", "the file may be damaged");
+    if (!header.hasTileDescription()) return;
+    const Imf::TileDescription& tiles = header.tileDescription();
+    const long long tile = static_cast<long long>(tiles.xSize) * tiles.ySize * pixel;
+    if (tile > tileLimit || line * tiles.ySize > tileRowLimit)
+        refuse(path, "claims tiles of " + std::to_string(tiles.xSize) + " x " + std::to_string(tiles.ySize) + " pixels, which is not a size this program reads",
+               "the file may be damaged");
+}
+
+/// Would so large an image need so much better a compression than any real one that it is to be read once on trial, without being kept?
+bool isSuspicious(const ImageData& image, std::size_t bytes) {
+    constexpr std::size_t usual = std::size_t(1) << 20, ratio = 64;  // values; values a byte
+    const std::size_t values = image.pixelCount() * static_cast<std::size_t>(image.channels);
+    return values > usual && values / ratio > bytes;
+}
+
 /// What would make OpenEXR take memory out of all proportion, or read what an image cannot hold.
 void checkHeader(const Path& path, const Imf::Header& header, std::size_t channelCount) {
     if (header.hasType() && Imf::isDeepData(header.type())) refuse(path, "is a deep image, which this program does not read");
@@ -65,6 +88,7 @@ void checkHeader(const Path& path, const Imf::Header& header, std::size_t channe
         const Imf::TileDescription& tiles = header.tileDescription();
         checkImageSize(path, tiles.xSize, tiles.ySize, channels);
     }
+    checkBuffers(path, header);
     // Primaries other than Rec. 709 would need a conversion; nobody should find out from the colours.
     if (Imf::hasChromaticities(header)) {
         const Imf::Chromaticities given = Imf::chromaticities(header), expected;
@@ -75,25 +99,40 @@ void checkHeader(const Path& path, const Imf::Header& header, std::size_t channe
     }
 }
 
+/// Where OpenEXR would find pixel (0, 0), which may lie far outside: no pointer could be led there.
+char* origin(void* first, const Box2i& window, std::size_t pixelStride, std::size_t lineStride) {
+    const auto x = static_cast<std::uintptr_t>(std::intptr_t(window.min.x)), y = static_cast<std::uintptr_t>(std::intptr_t(window.min.y));
+    return reinterpret_cast<char*>(reinterpret_cast<std::uintptr_t>(first) - x * pixelStride - y * lineStride);
+}
+
 /// The data window, all chosen channels as floats.
-ImageData readData(const Path& path, Imf::MultiPartInputFile& file, const std::vector<std::string>& names) {
+ImageData readData(const Path& path, std::size_t bytes, Imf::MultiPartInputFile& file, const std::vector<std::string>& names) {
     Imf::InputPart part(file, 0);
     const Imf::Header& header = part.header();
     const Box2i window = header.dataWindow();
-    ImageData data = makeImage(static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), static_cast<int>(names.size()));
-    Imf::FrameBuffer target;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const Imf::Channel& channel = header.channels()[names[i].c_str()];
+    for (const std::string& name : names) {
+        const Imf::Channel& channel = header.channels()[name.c_str()];
         if (channel.xSampling != 1 || channel.ySampling != 1) {
-            refuse(path, "the channel \"" + names[i] + "\" is subsampled, which only luminance and chroma (Y, RY, BY) may be");
+            refuse(path, "the channel \"" + name + "\" is subsampled, which only luminance and chroma (Y, RY, BY) may be");
         }
-        const std::size_t pixelStride = names.size() * sizeof(float);
-        target.insert(names[i], Imf::Slice::Make(Imf::FLOAT, data.values.data() + i, window, pixelStride,
-                                                 pixelStride * static_cast<std::size_t>(data.width)));
     }
-    part.setFrameBuffer(target);
-    part.readPixels(window.min.y, window.max.y);
     if (!part.isComplete()) refuse(path, "is incomplete: some of its pixels were never written");
+    ImageData data{static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), static_cast<int>(names.size()), {}};
+    const std::size_t pixelStride = names.size() * sizeof(float), lineStride = pixelStride * static_cast<std::size_t>(data.width);
+    const auto readInto = [&](std::vector<float>& values, std::size_t stride) {
+        Imf::FrameBuffer target;
+        char* first = origin(values.data(), window, pixelStride, stride);
+        for (std::size_t i = 0; i < names.size(); ++i)
+            target.insert(names[i], Imf::Slice(Imf::FLOAT, first + i * sizeof(float), pixelStride, stride));
+        part.setFrameBuffer(target);
+        part.readPixels(window.min.y, window.max.y);
+    };
+    if (isSuspicious(data, bytes)) {
+        std::vector<float> line(lineStride / sizeof(float));
+        readInto(line, 0);  // all lines over one another
+    }
+    data.values.resize(data.pixelCount() * names.size());
+    readInto(data.values, lineStride);
     return data;
 }
 
@@ -102,12 +141,18 @@ ImageData readLuminanceChroma(std::span<const std::byte> bytes, const Path& path
     ExrInput stream(bytes, path.filename().string());
     Imf::RgbaInputFile file(stream);
     const Box2i window = file.dataWindow();
-    ImageData data = makeImage(static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), hasAlpha ? 4 : 3);
-    std::vector<Imf::Rgba> pixels(data.pixelCount());
-    const auto width = static_cast<std::ptrdiff_t>(data.width);
-    file.setFrameBuffer(pixels.data() - window.min.x - window.min.y * width, 1, static_cast<std::size_t>(width));
-    file.readPixels(window.min.y, window.max.y);
     if (!file.isComplete()) refuse(path, "is incomplete: some of its pixels were never written");
+    ImageData data{static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), hasAlpha ? 4 : 3, {}};
+    std::vector<Imf::Rgba> pixels;
+    const auto readInto = [&](std::size_t lines, std::size_t stride) {
+        pixels.resize(lines * static_cast<std::size_t>(data.width));
+        char* first = origin(pixels.data(), window, sizeof(Imf::Rgba), stride * sizeof(Imf::Rgba));
+        file.setFrameBuffer(reinterpret_cast<Imf::Rgba*>(first), 1, stride);
+        file.readPixels(window.min.y, window.max.y);
+    };
+    if (isSuspicious(data, bytes.size())) readInto(1, 0);  // all lines over one another
+    readInto(static_cast<std::size_t>(data.height), static_cast<std::size_t>(data.width));
+    data.values.resize(data.pixelCount() * static_cast<std::size_t>(data.channels));
     float* value = data.values.data();
     for (const Imf::Rgba& pixel : pixels) {
         for (const half channel : {pixel.r, pixel.g, pixel.b}) *value++ = channel;
@@ -150,7 +195,7 @@ ExrFile decode(std::span<const std::byte> bytes, const Path& path) {
         if (hasAlpha) result.channels.emplace_back("A");
         result.image = readLuminanceChroma(bytes, path, hasAlpha);
     } else {
-        result.image = readData(path, file, result.channels);
+        result.image = readData(path, bytes.size(), file, result.channels);
     }
     result.image = frame(std::move(result.image), header.dataWindow(), header.displayWindow());
     return result;

@@ -4,6 +4,7 @@
 #include <framework/core/files.h>
 #include <framework/image/hdr.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -21,15 +22,20 @@ public:
     ImageData read() {
         const bool isDownward = readHeader();
         std::vector<Rgbe> line(static_cast<std::size_t>(image_.width));
+        const std::size_t lineValues = line.size() * 3;
         for (int row = 0; row < image_.height; ++row) {
             readLine(line);
-            const int y = isDownward ? row : image_.height - 1 - row;
+            image_.values.resize(image_.values.size() + lineValues);  // as lines come: a header may claim anything
             for (int x = 0; x < image_.width; ++x) {
                 const Rgbe& pixel = line[static_cast<std::size_t>(x)];
                 // Mantissas are 8 bits below the point, the exponent is biased by 128; exponent 0 is black whatever the mantissas are.
                 const float scale = pixel[3] == 0 ? 0.0f : std::ldexp(1.0f, pixel[3] - (128 + 8));
-                for (int c = 0; c < 3; ++c) image_.at(x, y, c) = pixel[static_cast<std::size_t>(c)] * scale;
+                for (int c = 0; c < 3; ++c) image_.at(x, row, c) = pixel[static_cast<std::size_t>(c)] * scale;
             }
+        }
+        for (int row = 0; !isDownward && row < image_.height / 2; ++row) {
+            const auto end = image_.values.end() - row * static_cast<std::ptrdiff_t>(lineValues);
+            std::swap_ranges(&image_.at(0, row, 0), &image_.at(0, row, 0) + lineValues, end - static_cast<std::ptrdiff_t>(lineValues));
         }
         return std::move(image_);
     }
@@ -70,7 +76,7 @@ private:
         }
         checkImageSize(path_, width, height, 3);
         if (static_cast<std::size_t>(height) * 4 > rest_.size()) refuse("is cut: it ends too early");  // a line takes 4 bytes at the least
-        image_ = makeImage(static_cast<int>(width), static_cast<int>(height), 3);
+        image_ = {static_cast<int>(width), static_cast<int>(height), 3, {}};
         return direction == '-';
     }
 

@@ -11,7 +11,7 @@ namespace lodestir {
 namespace {
 
 /// An accessor without a buffer view costs its file nothing, so a typing mistake could ask for all memory there is.
-constexpr std::size_t largestWithoutData = std::size_t(1) << 26;
+constexpr std::size_t largestWithoutData = std::size_t(1) << 22;
 
 int sizeOf(int componentType) {
     switch (componentType) {

@@ -92,6 +92,7 @@ private:
             if (accessor.components() != components)
                 throw import_.file.error(pointer + "/" + key,
                                          fmt::format("expected {} components, got {}", components, accessor.components()));
+            if (!accessor.hasData()) throw import_.file.error(pointer + "/" + key, "the attribute has no data: all instances would be one");
             if (count != 0 && accessor.count() != count)
                 throw import_.file.error(pointer + "/" + key, "the attributes have different counts");
             count = accessor.count();

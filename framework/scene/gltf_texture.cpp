@@ -16,6 +16,7 @@ namespace lodestir {
 namespace {
 
 constexpr std::int64_t largestImage = std::int64_t(1) << 28;  // texels: 1 GiB once decoded
+constexpr std::int64_t jpegTexelsPerByte = 512;               // at most: a block of 64 takes a bit at least
 
 Wrap wrapOf(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
@@ -45,11 +46,18 @@ void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     if (bytes.size() > 0x7fffffff) throw Error("the image file is larger than 2 GiB");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
+    // stb knows a dozen other formats, which no glTF file may hold and nobody here has tried with damaged files.
+    const std::string_view start(reinterpret_cast<const char*>(data), std::min<std::size_t>(bytes.size(), 4));
+    const bool isJpeg = start.starts_with("\xff\xd8");
+    if (!isJpeg && start != "\x89PNG") throw Error("the image is neither PNG nor JPEG");
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
         throw Error(fmt::format("the image cannot be read: {}", stbi_failure_reason()), "PNG and JPEG are supported");
     }
     if (std::int64_t(width) * height > largestImage) throw Error(fmt::format("the image has {}x{} texels, too many", width, height));
+    // A JPEG may break off anywhere, the rest being grey: without this, ten bytes could ask for a gigabyte of it.
+    if (isJpeg && std::int64_t(width) * height / jpegTexelsPerByte > size)
+        throw Error(fmt::format("the image claims {}x{} texels, more than its {} bytes can hold", width, height, size), "is the file cut short?");
     const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4),
                                                            stbi_image_free);
     if (!pixels) throw Error(fmt::format("the image cannot be decoded: {}", stbi_failure_reason()), "is the file cut short?");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <framework/core/is_file.h>
 #include <framework/image/temporal.h>
 #include <framework/scene/fields.h>
 #include <framework/study/study_file.h>
@@ -51,6 +52,7 @@ public:
         }
         fields.finish();
         problems_.raise();
+        checkRuns();
         return std::move(study_);
     }
 
@@ -62,6 +64,19 @@ private:
             problems_.add(error);
         }
     }
+    /// Lists of values multiply: four of a hundred values each are a hundred million runs.
+    void checkRuns() const {
+        constexpr double most = 1e6;
+        double runs = 0;
+        for (const Technique& technique : study_.techniques) {
+            double combinations = double(study_.scenes.size()) * double(study_.seeds.size());
+            for (const Knob& knob : technique.vary) combinations *= double(knob.values.size());
+            runs += combinations;
+        }
+        if (runs > most)
+            throw Error(json_.where(), fmt::format("the study asks for {:.3g} runs, more than {:.0f}", runs, most),
+                        "scenes, seeds and the values in \"vary\" multiply");
+    }
     static bool readFlag(const Json* value, const char* what) { return value && value->asBool(what); }
     static std::int64_t within(const Json& value, const std::string& what, std::int64_t low, std::int64_t high) {
         const std::int64_t number = value.asInt(what);
@@ -71,7 +86,7 @@ private:
     Path resolve(const Json& value, const std::string& what) const {
         const Path path = value.asString(what);
         const Path whole = path.is_absolute() ? path : (study_.file.parent_path() / path).lexically_normal();
-        if (!std::filesystem::is_regular_file(whole)) throw Error(value.where(), fmt::format("there is no file {}", whole.string()));
+        if (!isFile(whole)) throw Error(value.where(), fmt::format("there is no file {}", whole.string()));
         return whole;
     }
 
@@ -241,8 +256,9 @@ private:
     }
 
     void readVary(const Json& vary, Technique& technique) {
-        for (const auto& [name, values] : vary.members("\"vary\""))
+        for (const Json::Member& member : vary.members("\"vary\""))
             attempt([&] {
+                const auto& [name, values] = member;
                 if (values.items(fmt::format("\"{}\"", name)).empty())
                     throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
                 if (std::ranges::find(technique.graph.set, name, &StudySetting::name) != technique.graph.set.end())

@@ -451,6 +451,38 @@ TEST(Gltf, RefusesWhatWouldBeReadOutOfBounds) {
              m.json["materials"][0]["emissiveTexture"]["index"] = 0;
          },
          "no such.png\" is missing"},
+        {"image with a name that no file can have",
+         [](GltfModel& m) {
+             m.addTriangle();
+             m.json["images"] = {{{"uri", std::string(300, 'a')}}};
+             m.json["textures"] = {{{"source", 0}}};
+             m.json["materials"][0]["emissiveTexture"]["index"] = 0;
+         },
+         "aaa\" is missing"},
+        {"image of a format that glTF has not",
+         [](GltfModel& m) {
+             m.addTriangle();
+             m.json["images"] = {{{"uri", "data:,BM rest"}}};
+             m.json["textures"] = {{{"source", 0}}};
+             m.json["materials"][0]["emissiveTexture"]["index"] = 0;
+         },
+         "/images/0: the image is neither PNG nor JPEG"},
+        {"image of a billion texels in a few bytes",
+         [](GltfModel& m) {
+             m.addTriangle();
+             // Start of image, then a baseline frame of 16000 x 16000 with one component.
+             m.json["images"] = {{{"uri", "data:,%FF%D8%FF%C0%00%0B%08%3E%80%3E%80%01%01%11%00%FF%D9"}}};
+             m.json["textures"] = {{{"source", 0}}};
+             m.json["materials"][0]["emissiveTexture"]["index"] = 0;
+         },
+         "claims 16000x16000 texels, more than its 17 bytes can hold"},
+        {"instances without data",
+         [](GltfModel& m) {
+             m.addTriangle();
+             m.json["accessors"].push_back({{"componentType", 5126}, {"count", 4000000}, {"type", "VEC3"}});
+             m.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", 1}};
+         },
+         "TRANSLATION: the attribute has no data"},
         {"sparse index past the count",
          [](GltfModel& m) {
              m.addTriangle();

@@ -285,6 +285,38 @@ TEST_F(Images, ExrOfAbsurdSizeIsRefusedBeforeMemoryIsTaken) {
     EXPECT_NE(refusal([&] { checkImageSize("f", 0, 8, 4); }), "");
 }
 
+// Files far smaller than what they claim are read on trial first. If this fails, that trial spoils or refuses images that are only smooth.
+TEST_F(Images, ExrOfFewBytesKeepsItsPixels) {
+    ImageData smooth = makeImage(2048, 600, 2);
+    for (int y = 0; y < smooth.height; ++y) smooth.at(7, y, 1) = static_cast<float>(y);
+    writeExr(folder / "smooth.exr", smooth);
+    ASSERT_LT(fs::file_size(folder / "smooth.exr") * 64, smooth.values.size()) << "no test: it is not smooth enough";
+    EXPECT_TRUE(readExr(folder / "smooth.exr").values == smooth.values);
+
+    std::vector<Imf::Rgba> pixels(2048 * 600, Imf::Rgba(half(0.5f), half(0.25f), half(0.125f)));
+    {
+        Imf::RgbaOutputFile file((folder / "yc.exr").c_str(), 2048, 600, Imf::WRITE_YC);
+        file.setFrameBuffer(pixels.data(), 1, 2048);
+        file.writePixels(600);
+    }
+    const ImageData colors = readExr(folder / "yc.exr");
+    ASSERT_EQ(colors.pixelCount(), pixels.size());
+    EXPECT_NEAR(colors.at(2047, 599, 1), 0.25, 0.005);
+}
+
+// OpenEXR holds many lines, or a row of tiles, before it looks at the first pixel.
+TEST_F(Images, ExrOfAbsurdLinesOrTilesIsRefused) {
+    Imf::Header wide(60000, 1);
+    for (int i = 0; i < 60; ++i) wide.channels().insert("c" + std::to_string(i), Imf::Channel(Imf::FLOAT));
+    { const Imf::OutputFile file((folder / "wide.exr").c_str(), wide); }
+    EXPECT_NE(refusal([&] { readExr(folder / "wide.exr"); }).find("lines of 14400000 bytes"), std::string::npos);
+    Imf::Header tiled(16, 16);
+    for (const char* name : {"R", "G", "B"}) tiled.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    tiled.setTileDescription(Imf::TileDescription(8192, 8192));
+    { const Imf::TiledOutputFile file((folder / "tiled.exr").c_str(), tiled); }
+    EXPECT_NE(refusal([&] { readExr(folder / "tiled.exr"); }).find("tiles of 8192 x 8192"), std::string::npos);
+}
+
 TEST_F(Images, ForeignFilesAreNamed) {
     const auto tell = [&](const char* name, std::string_view content) {
         writeFile(folder / name, content);

@@ -106,6 +106,18 @@ TEST_F(StudyTest, WhatIsMissingIsSaid) {
     EXPECT_EQ(said.size(), 5u) << all;
 }
 
+// If this fails, a study of four long lists takes all memory before it says anything.
+TEST_F(StudyTest, TooManyRunsAreRefused) {
+    std::string values = "1";
+    for (int i = 2; i <= 100; ++i) values += ", " + std::to_string(i);
+    std::string vary;
+    for (const char* name : {"a.a", "a.b", "a.c", "a.d"}) vary += (vary.empty() ? "\"" : ", \"") + std::string(name) + "\": [" + values + "]";
+    const std::vector<std::string> said = complaints(R"({ "format": 1, "scenes": ["box.json"], "seeds": 5,
+      "reference": { "graph": "graph.json", "spp": 64 }, "techniques": { "all": { "graph": "graph.json", "vary": {)" + vary + "} } } }");
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_EQ(said[0], "study.json:1:1: the study asks for 5e+08 runs, more than 1000000; scenes, seeds and the values in \"vary\" multiply");
+}
+
 TEST_F(StudyTest, ExpandsToEveryCombinationOnce) {
     const Study study = loadStudy(write(good));
     const std::vector<StudyRun> runs = expandRuns(study);
