@@ -2,6 +2,7 @@
 // lodestir compare TEST REFERENCE: error metrics of two images.
 #include <framework/app/compare_command.h>
 #include <framework/app/metric_option.h>
+#include <framework/app/validators.h>
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/json.h>
@@ -12,6 +13,7 @@
 #include <framework/image/sequence.h>
 #include <framework/image/temporal.h>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,10 +67,14 @@ void writeMap(const CompareArguments& arguments, ImageData map) {
 
 MetricOptions optionsFor(const CompareArguments& arguments, const ImageData& reference) {
     MetricOptions options{.exposure = arguments.exposure > 0 ? arguments.exposure : exposureOf(reference)};
-    if (const auto& flip = arguments.flipExposures; !flip.empty())
+    if (const auto& flip = arguments.flipExposures; !flip.empty()) {
+        constexpr int most = 1000;  // more than there are stops between the darkest and the brightest float
+        if (!(flip[2] >= 1 && flip[2] <= most && flip[2] == std::floor(flip[2])))
+            throw CLI::ValidationError("--flip-exposures", fmt::format("COUNT must be 1 to {}, not {}", most, flip[2]));
         options.flip.exposures = FlipExposures{.start = flip[0], .stop = flip[1], .count = static_cast<int>(flip[2])};
-    else
+    } else {
         options.flip.exposures = flipExposures(reference);
+    }
     return options;
 }
 
@@ -172,7 +178,7 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
     command
         ->add_option("--exposure", arguments->exposure,
                      "factor on both images for metrics with an epsilon or a tone curve (median luminance becomes 0.18)")
-        ->check(CLI::PositiveNumber);
+        ->check(checkPositive);
     command
         ->add_option("--flip-exposures", arguments->flipExposures,
                      "START,STOP,COUNT in stops for flip, to be the same for all frames that are compared (chosen from REFERENCE)")
@@ -181,9 +187,13 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
         ->allow_extra_args(false);
     command->add_option("--motion", arguments->motion,
                         "sequence of motions as `visibility` makes them, for the flicker of what moves: out/hits.motion.%d.exr");
-    command->add_option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)");
+    command->add_option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)")
+        ->check([](const std::string& name) {
+            const std::string extension = Path(name).extension().string();
+            return extension == ".exr" || extension == ".png" ? std::string() : "\"" + name + "\" must end in .exr or .png";
+        });
     command->add_option("--map-top", arguments->mapTop, "error shown brightest in a .png map (99 % of the pixels are below)")
-        ->check(CLI::PositiveNumber);
+        ->check(checkPositive);
     command->footer(metricHelp());
     command->callback([arguments, &run] { run = [arguments] { return compare(*arguments); }; });
 }

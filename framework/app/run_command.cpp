@@ -4,6 +4,7 @@
 #include <framework/app/dump.h>
 #include <framework/app/metric_option.h>
 #include <framework/app/run_report.h>
+#include <framework/app/validators.h>
 #include <framework/core/log.h>
 #include <framework/image/exr.h>
 #include <framework/image/image_file.h>
@@ -118,7 +119,7 @@ void addRun(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "Renders a graph's frames and writes images, dumps and run.json.");
     options->session.addTo(*command);
-    CLI::Option* reference = command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json");
+    CLI::Option* reference = command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json")->check(checkNotEmpty);
     addMetrics(*command, options->metrics, metricNames(), "what is measured of each frame, names separated by commas: see `lodestir compare --help`")
         ->needs(reference)
         ->capture_default_str();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/session.h>
 
+#include <framework/app/validators.h>
 #include <framework/core/log.h>
 #include <framework/graph/scene_node.h>
 
@@ -8,6 +9,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <limits>
 
 namespace lodestir {
 namespace {
@@ -29,16 +31,16 @@ glm::uvec2 readSize(const std::string& text) {
 void SessionOptions::addTo(CLI::App& command) {
     command.add_option("graph", graph, "graph file")->required();
     command.add_option_function<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's");
-    command.add_option_function<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames")->check(CLI::PositiveNumber);
+    command.add_option_function<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames")->check(CLI::Range(1, std::numeric_limits<int>::max()));
     command.add_option_function<std::string>("--size", [this](const std::string& v) { changes.size = readSize(v); }, "of the frame, WIDTHxHEIGHT");
-    command.add_option_function<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers");
+    command.add_option_function<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers")->check(checkNotEmpty);
     command.add_option("--set", changes.set, "pass.parameter=value")->take_all()->allow_extra_args(false);
     command.add_option_function<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
     command.add_option_function<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
     command.add_option("--dump", dumps, "pass.port to write as well")->take_all()->allow_extra_args(false);
     command.add_option("--passes", passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
-    command.add_option("--device", device, "name or index, see `lodestir devices`");
-    command.add_option("--rays", rays, "how rays are traced: packet, lane or ray_query");
+    command.add_option("--device", device, "name or index, see `lodestir devices`")->check(checkNotEmpty);
+    command.add_option("--rays", rays, "how rays are traced: packet, lane or ray_query")->check(checkNotEmpty);
     command.add_flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
     command.add_flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
     command.add_flag("--count-steps", countSteps, "count the nodes that rays visit");

@@ -2,6 +2,7 @@
 #include <framework/app/study_command.h>
 
 #include <framework/app/run_report.h>
+#include <framework/app/validators.h>
 #include <framework/core/log.h>
 #include <framework/image/temporal.h>
 #include <framework/study/ensemble_report.h>
@@ -162,7 +163,7 @@ void addStudy(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<StudyOptions>();
     CLI::App* command = app.add_subcommand("study", "Measures techniques against each other and writes results.jsonl and report.html.");
     command->add_option("STUDY", options->study, "study file")->required();
-    command->add_option("--out", options->out, "folder for what is written (out/<name of the study>)");
+    command->add_option("--out", options->out, "folder for what is written (out/<name of the study>)")->check(checkNotEmpty);
     command->add_flag("--resume", options->resume, "keep the results that are there, make what is missing");
     command->add_option("--shard", options->shard, "make one part of the runs: I/N, with I from 1 to N")
         ->check([](const std::string& text) {
@@ -174,8 +175,8 @@ void addStudy(CLI::App& app, std::function<int()>& run) {
             }
         });
     command->add_option("--passes", options->stage.passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
-    command->add_option("--device", options->stage.device, "name or index, see `lodestir devices`");
-    command->add_option("--rays", options->stage.rays, "how rays are traced: packet, lane or ray_query");
+    command->add_option("--device", options->stage.device, "name or index, see `lodestir devices`")->check(checkNotEmpty);
+    command->add_option("--rays", options->stage.rays, "how rays are traced: packet, lane or ray_query")->check(checkNotEmpty);
     command->callback([options, &run] { run = [options] { return runStudy(*options); }; });
 }
 

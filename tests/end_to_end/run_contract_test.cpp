@@ -177,6 +177,10 @@ TEST_F(RunContract, WrongUseEndsWithTwo) {
                                        {"run", graph, "--size", "0x5"},
                                        {"run", graph, "--frames", "0"},
                                        {"run", graph, "--frames", "many"},
+                                       {"run", graph, "--seed", ""},
+                                       {"run", graph, "--seed", "-1"},
+                                       {"run", graph, "--rays", ""},
+                                       {"run", graph, "--reference", ""},
                                        {"compare", "one.exr"}}) {
         const Output output = lodestir(arguments);
         EXPECT_EQ(output.exitCode, 2) << "lodestir " << commandText(arguments) << "\n" << output.err;
