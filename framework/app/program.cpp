@@ -15,8 +15,10 @@
 #include <lodestir/revision.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <functional>
+#include <system_error>
 
 namespace lodestir {
 
@@ -46,7 +48,11 @@ int runProgram(int argc, char** argv) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        return run();
+        const int code = run();
+        // A full disk behind `> facts.json` is only noticed here, and half the facts are worse than none.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout))
+            throw Error("what was printed cannot be written: " + std::generic_category().message(errno));
+        return code;
     } catch (const CLI::ParseError& error) {  // found wrong only when the command looked closer
         app.exit(error);
         return 2;

@@ -61,13 +61,18 @@ void checkBuffers(const Path& path, const Imf::Header& header) {
     long long channels = 0;
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) ++channels;
     const long long pixel = channels * static_cast<long long>(sizeof(float)), line = width * pixel;
-    if (line > lineLimit) refuse(path, "claims lines of " + std::to_string(line) + " bytes, which is not a size this program reads", "the file may be damaged");
+    if (line > lineLimit) {
+        refuse(path, "claims lines of " + std::to_string(line) + " bytes, which is not a size this program reads", "the file may be damaged");
+    }
     if (!header.hasTileDescription()) return;
     const Imf::TileDescription& tiles = header.tileDescription();
     const long long tile = static_cast<long long>(tiles.xSize) * tiles.ySize * pixel;
-    if (tile > tileLimit || line * tiles.ySize > tileRowLimit)
-        refuse(path, "claims tiles of " + std::to_string(tiles.xSize) + " x " + std::to_string(tiles.ySize) + " pixels, which is not a size this program reads",
+    if (tile > tileLimit || line * tiles.ySize > tileRowLimit) {
+        refuse(path,
+               "claims tiles of " + std::to_string(tiles.xSize) + " x " + std::to_string(tiles.ySize) +
+                   " pixels, which is not a size this program reads",
                "the file may be damaged");
+    }
 }
 
 /// Would so large an image need so much better a compression than any real one that it is to be read once on trial, without being kept?

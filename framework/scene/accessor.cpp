@@ -11,7 +11,7 @@ namespace lodestir {
 namespace {
 
 /// An accessor without a buffer view costs its file nothing, so a typing mistake could ask for all memory there is.
-constexpr std::size_t largestWithoutData = std::size_t(1) << 22;
+constexpr std::size_t largestWithoutData = std::size_t(1) << 20;
 
 int sizeOf(int componentType) {
     switch (componentType) {
@@ -79,6 +79,10 @@ std::span<const std::byte> bufferViewBytes(const GltfFile& file, int view) {
         throw file.error(pointer + "/buffer", fmt::format("there is no buffer {}, the file has {}", v.buffer, file.buffers.size()));
     }
     const std::span<const std::byte> buffer = file.buffers[static_cast<std::size_t>(v.buffer)];
+    if (buffer.empty() && v.byteLength > 0) {
+        throw file.error(fmt::format("/buffers/{}", v.buffer),
+                         file.binary ? "the buffer has no URI and the file no binary chunk for it" : "the buffer has no URI");
+    }
     if (v.byteOffset > buffer.size() || v.byteLength > buffer.size() - v.byteOffset) {
         throw file.error(pointer, fmt::format("bytes {} to {} are not all inside buffer {} of {} bytes", v.byteOffset,
                                               v.byteOffset + v.byteLength, v.buffer, buffer.size()));
@@ -98,7 +102,7 @@ Accessor::Accessor(const GltfFile& file, int index, const std::string& user) : f
     if (componentSize_ == 0)
         throw file.error(pointer_ + "/componentType", fmt::format("component type {} is none of glTF's", source_->componentType));
     if (components_ == 0 || (components_ == 16 && source_->componentType != TINYGLTF_COMPONENT_TYPE_FLOAT))
-        throw file.error(pointer_ + "/type", "only matrices of 4x4 floats are known");
+        throw file.error(pointer_ + "/type", "elements of this type cannot be used here", "SCALAR, VEC2, VEC3, VEC4, or MAT4 of floats");
     elementSize_ = static_cast<std::size_t>(componentSize_ * components_);
 
     if (source_->bufferView >= 0) {

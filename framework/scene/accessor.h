@@ -22,7 +22,7 @@ public:
 
     std::size_t count() const { return count_; }
     int components() const { return components_; }            ///< of one element, 1 to 4; 16: a matrix, column by column
-    bool hasData() const { return !base_.bytes.empty(); }     ///< else all elements but the sparse ones are zeros
+    bool hasData() const { return !base_.bytes.empty() || !replaced_.empty(); }  ///< else all elements are zeros
     const std::string& pointer() const { return pointer_; }  ///< JSON pointer, for messages
 
     /// count * components numbers; normalised integers become [0, 1] or [-1, 1] (section 3.6.2.2), other integers keep their value.

@@ -32,6 +32,7 @@ std::vector<AnimationChannel> readKeys(const GltfFile& file, const tinygltf::Ani
     }
     const Accessor input(file, sampler.input, pointer + "/input"), output(file, sampler.output, pointer + "/output");
     if (input.components() != 1) throw file.error(pointer + "/input", "times must be scalars");
+    if (input.count() > 0 && !input.hasData()) return {};  // nothing moves
     channel.times = input.floats();
     if (channel.times.empty()) throw file.error(pointer + "/input", "an animation needs at least one key");
     for (std::size_t i = 0; i < channel.times.size(); ++i) {
@@ -110,9 +111,11 @@ void loadGltfAnimations(GltfImport& import) {
                 continue;
             }
             try {
-                for (AnimationChannel& channel :
-                     readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)],
-                              fmt::format("/animations/{}/samplers/{}", a, source.sampler), {.node = node, .value = *value}, targets)) {
+                std::vector<AnimationChannel> channels =
+                    readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)],
+                             fmt::format("/animations/{}/samplers/{}", a, source.sampler), {.node = node, .value = *value}, targets);
+                if (channels.empty()) import.note("animations without data are ignored");
+                for (AnimationChannel& channel : channels) {
                     scene.animationLength = std::max(scene.animationLength, channel.times.back());
                     scene.animation.push_back(std::move(channel));
                 }

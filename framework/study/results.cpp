@@ -95,10 +95,12 @@ std::vector<ResultRow> readResults(const Path& folder) {
 ResultFile::ResultFile(const Path& path) : path_(path), handle_(-1) {
     std::error_code failure;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), failure);
+    if (failure) throw Error(Where{path.parent_path().string()}, "the folder cannot be made: " + failure.message());
     if (std::filesystem::exists(path, failure)) {
         const std::string text = readText(path);
         const std::size_t last = text.rfind('\n'), whole = last == text.npos ? 0 : last + 1;
-        if (whole != text.size()) std::filesystem::resize_file(path, whole);
+        if (whole != text.size()) std::filesystem::resize_file(path, whole, failure);
+        if (failure) throw Error(Where{path.string()}, "cannot be written: " + failure.message());
     }
     handle_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (handle_ < 0) fail(path, errno);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A run that is killed leaves whole files under final names, or none.
+// What is killed leaves whole files under final names, or none, and no scraps; what is done again succeeds.
 #include "program.h"
 
 #include <framework/image/png.h>
@@ -47,6 +47,69 @@ TEST_F(KilledRun, LeavesNoHalfFile) {
         EXPECT_GE(whole, 7);
         EXPECT_FALSE(std::filesystem::exists(out / "run.json")) << "run.json says that the run is complete";
         std::filesystem::remove_all(out);
+    }
+}
+
+/// Names that begin with a dot, in a folder and all below: what was being written aside.
+std::vector<std::string> scrapsIn(const Path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+        if (entry.path().filename().string().starts_with(".")) names.push_back(entry.path().string());
+    return names;
+}
+
+// If this fails, a study that is stopped and resumed again and again, as on a cluster, ends with rows missing or doubled, or a full disk.
+TEST_F(KilledRun, StudiesResumeAfterAnyKill) {
+    write("study.json", {{"format", 1},
+                         {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
+                         {"size", {24, 16}},
+                         {"seeds", 40},
+                         {"reference", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"spp", 8}}},
+                         {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}}}}});
+    const Path out = folder / "out";
+    const Arguments command{LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", out.string(), "--resume"};
+    int killed = 0;
+    for (int round = 0; round < 4; ++round) {
+        Process process(command);
+        std::this_thread::sleep_for(std::chrono::milliseconds(400 + 370 * round));  // loading, references, runs, whichever the machine is at
+        if (!process.running()) break;
+        process.kill(SIGKILL);
+        process.wait(std::chrono::seconds(10));
+        ++killed;
+    }
+    EXPECT_GT(killed, 0);
+    const Output output = runProcess(command);
+    ASSERT_EQ(output.exitCode, 0) << output.err;
+    const std::string rows = readText(out / "results.jsonl");
+    EXPECT_EQ(std::ranges::count(rows, '\n'), 40);
+    EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
+    EXPECT_TRUE(scrapsIn(out).empty()) << scrapsIn(out)[0];
+}
+
+// If this fails, a model or a map that was cut off is taken for a whole one.
+TEST_F(KilledRun, ModelsAndMapsAreWholeOrNotThere) {
+    ImageData image = makeImage(1500, 1000, 3);
+    for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = float(i * 2654435761u % 1000) / 1000;
+    writeExr(folder / "image.exr", image);
+    const std::string picture = (folder / "image.exr").string();
+    const Arguments commands[]{
+        {LODESTIR_BINARY, "lod", (sceneFolder() / "rock.glb").string(), "--levels", "2", "--out", (folder / "out/rock.glb").string()},
+        {LODESTIR_BINARY, "compare", picture, picture, "--metrics", "mse", "--map", (folder / "out/map.exr").string()}};
+    for (const Arguments& command : commands) {
+        const auto start = std::chrono::steady_clock::now();
+        ASSERT_EQ(runProcess(command).exitCode, 0);
+        const auto time = std::chrono::steady_clock::now() - start;
+        const auto [name, size] = std::pair(command.back(), std::filesystem::file_size(command.back()));
+        for (const double share : {0.3, 0.7, 0.9, 0.97}) {
+            std::filesystem::remove(name);
+            Process process(command);
+            std::this_thread::sleep_for(share * time);
+            process.kill(SIGKILL);
+            process.wait(std::chrono::seconds(10));
+            EXPECT_TRUE(!std::filesystem::exists(name) || std::filesystem::file_size(name) == size) << name;
+            EXPECT_TRUE(scrapsIn(folder).empty()) << scrapsIn(folder)[0];
+        }
+        EXPECT_EQ(runProcess(command).exitCode, 0);
     }
 }
 

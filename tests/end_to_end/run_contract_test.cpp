@@ -233,11 +233,15 @@ TEST_F(RunContract, FailuresEndWithOneAndLeaveNothing) {
         EXPECT_NE(output.err.find(c.message), std::string::npos) << "expected \"" << c.message << "\" in\n" << output.err;
         EXPECT_TRUE(filesOf(out).empty()) << commandText(arguments) << " left " << *filesOf(out).begin();
     }
-    Arguments blocked = with({"run", graph, "--out", (folder / "tiny.exr").string()}, small);
+    const std::string tinyName = (folder / "tiny.exr").string();
+    Arguments blocked = with({"run", graph, "--out", tinyName}, small);
     const Output output = lodestir(blocked);
     EXPECT_EQ(output.exitCode, 1) << output.err;
     EXPECT_NE(output.err.find("tiny.exr"), std::string::npos) << output.err;
     EXPECT_EQ(readExr(folder / "tiny.exr").width, 3);
+    const Output full = runProcess({"sh", "-c", std::string(LODESTIR_BINARY) + " compare --json " + tinyName + " " + tinyName + " >/dev/full"});
+    EXPECT_EQ(full.exitCode, 1) << "the disk that took the facts was full";
+    EXPECT_NE(full.err.find("what was printed cannot be written"), std::string::npos) << full.err;
 }
 
 TEST_F(RunContract, BatchCommandsTouchNoDisplay) {

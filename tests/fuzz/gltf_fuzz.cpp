@@ -54,7 +54,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
     } else if (textSize == 0 || textSize > size - headerSize || seed % 8 == 0) {
         result = mutatedBytes(whole, maxSize);
     } else {
-        std::string text = whole.substr(headerSize, textSize), binary = whole.substr(std::min(size, headerSize + textSize + chunkHeaderSize));
+        std::string text = whole.substr(headerSize, textSize);
+        std::string binary = whole.substr(std::min(size, headerSize + textSize + chunkHeaderSize));
         const std::size_t frame = headerSize + chunkHeaderSize + 4, rest = maxSize > frame + size ? maxSize - frame - size : 0;
         if (seed % 4 == 1 && !binary.empty())
             binary = mutatedBytes(binary, binary.size() + rest);

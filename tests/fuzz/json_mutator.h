@@ -81,7 +81,7 @@ private:
 
     void changeChildren(Tree& value, const Tree& other) {
         if (value.is_array() && !value.empty()) {
-            const auto place = value.begin() + static_cast<std::ptrdiff_t>(below(value.size()));
+            const auto place = std::next(value.begin(), below(value.size()));
             if (below(3) == 0) {
                 value.erase(place);
             } else {
@@ -89,7 +89,7 @@ private:
                 for (unsigned copies = below(8) == 0 ? 100 : 1; copies > 0; --copies) value.push_back(copy);
             }
         } else if (value.is_object() && !value.empty()) {
-            const std::string key = (value.begin() + static_cast<std::ptrdiff_t>(below(value.size()))).key();
+            const std::string key = std::next(value.begin(), below(value.size())).key();
             if (below(2) == 0)
                 value.erase(key);
             else

@@ -4,7 +4,7 @@
 #include "json_mutator.h"
 
 #include <framework/core/json.h>
-#include <framework/scene/scene.h>
+#include <framework/scene/scene_file.h>
 
 LODESTIR_MUTATE_JSON
 
@@ -30,10 +30,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const bool isSetUp = (placeModels(folder), true);
     const lodestir::Path file = folder.write(isSetUp ? "input.json" : "", {data, size});
     lodestir::fuzz::expectErrorOrResult([&] {
-        const lodestir::Scene scene = lodestir::loadScene(file);
+        // Scenes without a light get a sky, which takes a while to make: one in sixteen is enough.
+        lodestir::SceneFileSays says;
+        const lodestir::Scene scene = size % 16 == 0 ? lodestir::loadScene(file) : lodestir::loadSceneFile(file, says);
         for (const float frame : {0.0f, 1.5f, 1e9f}) {
             scene.nodeMatrices(frame);
-            scene.cameraAt(frame);
+            if (!scene.camera.keys.empty()) scene.cameraAt(frame);
         }
         scene.bounds();
     });
