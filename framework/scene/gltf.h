@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Loads glTF 2.0 models (.gltf, .glb) into a scene.
 #pragma once
+#include <framework/core/error.h>
 #include <framework/scene/scene.h>
 
 namespace lodestir {
 
+/// A choice among a model's KHR_materials_variants, and where somebody made it.
+struct VariantChoice {
+    std::string name;  ///< empty: the materials as they are
+    Where where;
+};
+
 /// Appends a model: its nodes under `parentNode` (`none`: as roots), meshes, materials, textures, lights, animation, and its first
 /// perspective camera when the scene has no camera yet (keys empty). Extensions: KHR_lights_punctual, KHR_materials_emissive_strength,
-/// _ior, _transmission, _volume, KHR_texture_transform, KHR_mesh_quantization, EXT_mesh_gpu_instancing, MSFT_lod (nodes);
-/// approximated with a note: KHR_materials_unlit, KHR_materials_pbrSpecularGlossiness.
+/// _ior, _transmission, _volume, _specular, _sheen, _anisotropy, _clearcoat, _unlit, KHR_materials_variants, KHR_texture_transform,
+/// KHR_mesh_quantization, EXT_meshopt_compression, KHR_meshopt_compression, EXT_mesh_gpu_instancing, MSFT_lod (nodes);
+/// approximated with a note: KHR_materials_pbrSpecularGlossiness.
 /// Error with every problem found, each at its JSON pointer; the scene is not to be used then.
-LODESTIR_API void loadGltf(const Path& path, Scene& scene, std::uint32_t parentNode);
+LODESTIR_API void loadGltf(const Path& path, Scene& scene, std::uint32_t parentNode, const VariantChoice& variant = {});
 
 }  // namespace lodestir

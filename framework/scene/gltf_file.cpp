@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Containers of glTF 2.0 (JSON text, GLB), checked before anything else is believed.
 #include <framework/scene/gltf_file.h>
+#include <framework/scene/gltf_meshopt.h>
 #include <framework/scene/uri.h>
 
 #include <fmt/format.h>
@@ -23,12 +24,19 @@ constexpr std::array supportedExtensions{
     "KHR_materials_ior",
     "KHR_materials_transmission",
     "KHR_materials_volume",
+    "KHR_materials_specular",
+    "KHR_materials_sheen",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_mesh_quantization",
     "KHR_materials_pbrSpecularGlossiness",
     "MSFT_lod",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
 };
 
 constexpr std::uint32_t glbMagic = 0x46546c67, jsonChunk = 0x4e4f534a, binChunk = 0x004e4942;  // "glTF", "JSON", "BIN\0"
@@ -127,13 +135,29 @@ void checkExtensions(const GltfFile& file, Problems& problems) {
         if (!name.isString() || isSupportedGltfExtension(name.asString())) continue;
         const std::string& extension = name.asString();
         std::string hint;
-        if (extension.find("draco") != std::string::npos || extension.find("meshopt") != std::string::npos)
-            hint = "decompress the model first, for example with: gltf-transform copy (or gltfpack without -c)";
+        if (extension.find("draco") != std::string::npos)
+            hint = "decompress the model first, for example with: gltf-transform copy";
+        else if (extension.find("gaussian_splatting") != std::string::npos)
+            hint = "Gaussian splats are not meshes; only meshes are shown";
         else if (extension == "KHR_texture_basisu" || extension == "EXT_texture_webp" || extension == "EXT_texture_avif")
             hint = "convert its textures to PNG or JPEG";
         problems.add(file.binary ? Where{file.path.string()} : name.where(),
                      fmt::format("the model needs extension {}, which is not supported", extension), hint);
     }
+}
+
+/// Every view of the buffer is compressed, or it has none: what it would hold is not needed, and may be missing.
+bool isFallback(const GltfFile& file, std::size_t buffer) {
+    const Json* views = file.json.find("bufferViews");
+    if (!views || !views->isArray()) return false;
+    bool compressed = false;
+    for (const Json& view : views->items()) {
+        const Json *from = view.find("buffer"), *extensions = view.find("extensions");
+        if (!from || !from->isNumber() || from->asNumber() != static_cast<double>(buffer)) continue;
+        if (!extensions || !(extensions->find("EXT_meshopt_compression") || extensions->find("KHR_meshopt_compression"))) return false;
+        compressed = true;
+    }
+    return compressed || file.json.find("buffers")->items()[buffer].find("extensions");
 }
 
 void readBuffers(GltfFile& file, const Container& container, Problems& problems) {
@@ -148,7 +172,8 @@ void readBuffers(GltfFile& file, const Container& container, Problems& problems)
             const Json *uri = buffer.find("uri"), *length = buffer.find("byteLength");
             const std::int64_t expected = length ? length->asInt("byteLength") : -1;
             if (expected < 0) throw file.error(pointer + "/byteLength", "a buffer needs its length in bytes");
-            if (uri) {
+            const bool fallback = isFallback(file, i);
+            if (uri && !fallback) {
                 try {
                     bytes = readUri(uri->asString("uri"), file.path.parent_path());
                 } catch (const Error& error) {
@@ -159,7 +184,7 @@ void readBuffers(GltfFile& file, const Container& container, Problems& problems)
             } else {
                 continue;  // it has no data, which is wrong only where somebody wants to read it
             }
-            if (bytes.size() < static_cast<std::size_t>(expected)) {
+            if (bytes.size() < static_cast<std::size_t>(expected) && !fallback) {
                 throw file.error(pointer, fmt::format("the buffer says {} bytes, its data has {}", expected, bytes.size()),
                                  "is the file cut short?");
             }
@@ -297,6 +322,8 @@ GltfFile readGltfFile(const Path& path) {
     readBuffers(file, container, problems);
     problems.raise();
     parseStructure(file);
+    decodeMeshopt(file, problems);
+    problems.raise();
     return file;
 }
 

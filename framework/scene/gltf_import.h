@@ -24,6 +24,7 @@ struct GltfImport {
         int skin;            ///< of the file
     };
     std::vector<Skinned> skinned;          ///< meshes that wait for their skins
+    int variant = -1;                      ///< of KHR_materials_variants, -1: none is chosen
     std::set<std::string> noted;           ///< each note is said once
 
     /// Adds a note "file name: text" to the scene.

@@ -50,6 +50,7 @@ public:
         readSpecularGlossiness();
         readEmission();
         readVolume();
+        readLayers();
         if (source_.alphaMode == "MASK")
             material_.alphaMode = AlphaMode::mask;
         else if (source_.alphaMode == "BLEND")
@@ -59,7 +60,7 @@ public:
                             "known: OPAQUE, MASK, BLEND");
         material_.alphaCutoff = std::max(static_cast<float>(source_.alphaCutoff), 0.0f);
         material_.doubleSided = source_.doubleSided;
-        if (findExtension(source_.extensions, "KHR_materials_unlit")) import_.note("unlit materials are shown as lit ones");
+        if (findExtension(source_.extensions, "KHR_materials_unlit")) makeUnlit();
         if (findExtension(source_.extensions, "MSFT_lod"))
             import_.note("levels of detail of materials are ignored; the finest material is used");
         return std::move(material_);
@@ -145,6 +146,67 @@ private:
         material_.attenuationDistance = std::max(numberOf(volume, "attenuationDistance", 0), 0.0f);
     }
 
+    /// The texture `key` of the material's extension `name`, whose object may be nullptr.
+    TextureSlot layerSlot(const tinygltf::Value* object, const char* name, const char* key, bool srgb) {
+        return slot(useOf(object, key), srgb, fmt::format("/extensions/{}/{}", name, key));
+    }
+
+    /// KHR_materials_specular, _sheen, _anisotropy, _clearcoat; a material where none of them does anything stays plain.
+    void readLayers() {
+        const auto share = [](const tinygltf::Value* object, const char* key, float otherwise) {
+            return std::clamp(numberOf(object, key, otherwise), 0.0f, 1.0f);
+        };
+        MaterialLayers layers;
+        bool any = false;
+        constexpr const char *specularName = "KHR_materials_specular", *sheenName = "KHR_materials_sheen",
+                             *anisotropyName = "KHR_materials_anisotropy", *coatName = "KHR_materials_clearcoat";
+        if (const tinygltf::Value* specular = findExtension(source_.extensions, specularName)) {
+            layers.specular = share(specular, "specularFactor", 1);
+            layers.specularColor = glm::max(vectorOf(specular, "specularColorFactor", glm::vec3(1)), 0.0f);
+            layers.specularMap = layerSlot(specular, specularName, "specularTexture", false);
+            layers.specularColorMap = layerSlot(specular, specularName, "specularColorTexture", true);
+            any = any || layers.specular < 1 || layers.specularColor != glm::vec3(1) || layers.specularMap.texture != none ||
+                  layers.specularColorMap.texture != none;
+        }
+        if (const tinygltf::Value* sheen = findExtension(source_.extensions, sheenName)) {
+            layers.sheenColor = glm::clamp(vectorOf(sheen, "sheenColorFactor", glm::vec3(0)), 0.0f, 1.0f);
+            layers.sheenRoughness = share(sheen, "sheenRoughnessFactor", 0);
+            layers.sheenColorMap = layerSlot(sheen, sheenName, "sheenColorTexture", true);
+            layers.sheenRoughnessMap = layerSlot(sheen, sheenName, "sheenRoughnessTexture", false);
+            any = any || layers.sheenColor != glm::vec3(0);
+        }
+        if (const tinygltf::Value* anisotropy = findExtension(source_.extensions, anisotropyName)) {
+            layers.anisotropy = share(anisotropy, "anisotropyStrength", 0);
+            layers.anisotropyRotation = numberOf(anisotropy, "anisotropyRotation", 0);
+            layers.anisotropyMap = layerSlot(anisotropy, anisotropyName, "anisotropyTexture", false);
+            any = any || layers.anisotropy > 0;
+        }
+        if (const tinygltf::Value* coat = findExtension(source_.extensions, coatName)) {
+            layers.coat = share(coat, "clearcoatFactor", 0);
+            layers.coatRoughness = share(coat, "clearcoatRoughnessFactor", 0);
+            layers.coatMap = layerSlot(coat, coatName, "clearcoatTexture", false);
+            layers.coatRoughnessMap = layerSlot(coat, coatName, "clearcoatRoughnessTexture", false);
+            layers.coatNormalMap = layerSlot(coat, coatName, "clearcoatNormalTexture", false);
+            if (layers.coatNormalMap.texture != none) layers.coatNormalScale = numberOf(&coat->Get("clearcoatNormalTexture"), "scale", 1);
+            any = any || layers.coat > 0;
+        }
+        if (any) material_.layers = layers;
+    }
+
+    /// KHR_materials_unlit: the base colour is what is seen. It is emitted, so that every technique shows it alike, and nothing scatters.
+    void makeUnlit() {
+        import_.note("unlit materials emit their base colour");
+        material_.unlit = true;
+        material_.emission = glm::vec3(material_.baseColor);
+        material_.emissiveMap = material_.baseColorMap;
+        material_.baseColor = glm::vec4(glm::vec3(0), material_.baseColor.a);
+        material_.metallic = material_.transmission = 0;
+        material_.ior = 1;
+        material_.solid = false;
+        material_.metallicRoughnessMap = material_.normalMap = material_.transmissionMap = {};
+        material_.layers.reset();
+    }
+
     GltfImport& import_;
     GltfTextures& textures_;
     const tinygltf::Material& source_;
@@ -162,7 +224,37 @@ void loadGltfMaterials(GltfImport& import, GltfTextures& textures) {
     }
 }
 
-std::uint32_t gltfMaterial(GltfImport& import, int index, const std::string& user) {
+std::optional<TextureSlot> tangentSlot(const Material& material) {
+    if (material.normalMap.texture != none) return material.normalMap;
+    if (!material.layers) return std::nullopt;
+    const MaterialLayers& layers = *material.layers;
+    if (layers.coatNormalMap.texture != none) return layers.coatNormalMap;
+    if (layers.anisotropy > 0) return layers.anisotropyMap;
+    return std::nullopt;
+}
+
+namespace {
+
+/// KHR_materials_variants: the material that the primitive's mappings give to a variant, else its own. -1: none.
+int variantMaterial(const tinygltf::Primitive& primitive, int variant) {
+    const tinygltf::Value* extension = variant >= 0 ? findExtension(primitive.extensions, "KHR_materials_variants") : nullptr;
+    if (!extension || !extension->Has("mappings")) return primitive.material;
+    const tinygltf::Value& mappings = extension->Get("mappings");
+    for (std::size_t m = 0; m < mappings.ArrayLen(); ++m) {
+        const tinygltf::Value& mapping = mappings.Get(m);
+        if (!mapping.IsObject() || !mapping.Has("variants")) continue;
+        const tinygltf::Value& variants = mapping.Get("variants");
+        for (std::size_t v = 0; v < variants.ArrayLen(); ++v) {
+            if (variants.Get(v).IsInt() && variants.Get(v).GetNumberAsInt() == variant) return integerOf(&mapping, "material", primitive.material);
+        }
+    }
+    return primitive.material;
+}
+
+}  // namespace
+
+std::uint32_t gltfMaterial(GltfImport& import, const tinygltf::Primitive& primitive, const std::string& user) {
+    const int index = variantMaterial(primitive, import.variant);
     const std::size_t count = import.file.model.materials.size();
     if (index >= 0 && static_cast<std::size_t>(index) < count) return import.materialBase + static_cast<std::uint32_t>(index);
     if (index >= 0) throw import.file.error(user + "/material", fmt::format("there is no material {}, the file has {}", index, count));

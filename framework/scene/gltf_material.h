@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Materials of a glTF model: metallic-roughness with emissive_strength, transmission, ior, volume and texture transforms.
+// Materials of a glTF model: metallic-roughness with emissive_strength, transmission, ior, volume, layers, unlit and texture transforms.
 #pragma once
 #include <framework/scene/gltf_texture.h>
 
@@ -9,7 +9,10 @@ namespace lodestir {
 /// clamped, wrong indices gathered as problems.
 void loadGltfMaterials(GltfImport& import, GltfTextures& textures);
 
-/// The scene's material of a primitive: the file's material `index`, or for -1 the default one of glTF (white, metallic and rough).
-std::uint32_t gltfMaterial(GltfImport& import, int index, const std::string& user);
+/// The texture whose coordinates the tangents of a material's meshes follow; nothing where no tangents are needed.
+std::optional<TextureSlot> tangentSlot(const Material& material);
+
+/// The scene's material of a primitive: that of the chosen variant, else its own, else the default one of glTF (white, metallic and rough).
+std::uint32_t gltfMaterial(GltfImport& import, const tinygltf::Primitive& primitive, const std::string& user);
 
 }  // namespace lodestir

@@ -4,6 +4,7 @@
 #include <framework/scene/gltf_material.h>
 #include <framework/scene/gltf_mesh.h>
 #include <framework/scene/shading_frame.h>
+#include <framework/scene/tangent_space.h>
 
 #include <fmt/format.h>
 
@@ -207,7 +208,7 @@ private:
     }
 
     void shade() {
-        const std::uint32_t material = gltfMaterial(import_, source_.material, pointer_);
+        const std::uint32_t material = gltfMaterial(import_, source_, pointer_);
         level_.materials.assign(level_.triangles.size(), material);
         if (level_.normals.empty()) {
             level_.tangents.clear();  // the format says so: tangents without normals mean nothing
@@ -216,11 +217,11 @@ private:
         } else if (repairNormals(level_) > 0) {
             import_.note("normals that were zero or not finite are made from the faces around them");
         }
-        const TextureSlot& map = import_.scene.materials[material].normalMap;
-        if (map.texture == none) {
+        const std::optional<TextureSlot> map = tangentSlot(import_.scene.materials[material]);
+        if (!map) {
             level_.tangents.clear();
         } else if (level_.tangents.empty()) {
-            makeTangents(level_, map);
+            makeTangents(level_, *map);
         }
         for (std::size_t v = 0; v < level_.tangents.size(); ++v) {
             const glm::vec4 t = level_.tangents[v];

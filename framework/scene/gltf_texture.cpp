@@ -159,6 +159,12 @@ void GltfTextures::leaveOut(int image, std::string_view format) {
                                       &material.emissiveMap, &material.transmissionMap}) {
                 if (slot->texture == texture) *slot = {};
             }
+            if (!material.layers) continue;
+            MaterialLayers& l = *material.layers;
+            for (TextureSlot* slot : {&l.specularMap, &l.specularColorMap, &l.sheenColorMap, &l.sheenRoughnessMap, &l.anisotropyMap, &l.coatMap,
+                                      &l.coatRoughnessMap, &l.coatNormalMap}) {
+                if (slot->texture == texture) *slot = {};
+            }
         }
     }
 }

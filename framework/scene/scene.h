@@ -39,9 +39,22 @@ struct TextureSlot {
     float rotation = 0;  ///< radians, counter-clockwise in glTF's convention
 };
 
+/// What few materials have, all of it at its neutral value: KHR_materials_specular, _sheen, _anisotropy and _clearcoat.
+struct MaterialLayers {
+    float specular = 1;                  ///< scales the dielectric's reflectance
+    glm::vec3 specularColor{1};          ///< scales its reflectance at normal incidence
+    glm::vec3 sheenColor{0};
+    float sheenRoughness = 0;
+    float anisotropy = 0;                ///< strength, 0 to 1
+    float anisotropyRotation = 0;        ///< radians from the tangent towards the bitangent
+    float coat = 0, coatRoughness = 0, coatNormalScale = 1;
+    TextureSlot specularMap, specularColorMap, sheenColorMap, sheenRoughnessMap, anisotropyMap, coatMap, coatRoughnessMap, coatNormalMap;
+};
+
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
-/// glTF 2.0 metallic-roughness material with emissive_strength, transmission, ior and volume (only: thin or solid, attenuation).
+/// glTF 2.0 metallic-roughness material with emissive_strength, transmission, ior and volume (only: thin or solid, attenuation), unlit,
+/// and the layers above.
 struct Material {
     std::string name;
     glm::vec4 baseColor{1};
@@ -55,6 +68,8 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
+    bool unlit = false;             ///< emission and emissiveMap are the base colour's, which vertex colours tint; nothing scatters
+    std::optional<MaterialLayers> layers;
     TextureSlot baseColorMap, metallicRoughnessMap, normalMap, occlusionMap, emissiveMap, transmissionMap;
 };
 

@@ -62,6 +62,7 @@ struct Model {
     std::string name;
     Path path;
     Where where;
+    VariantChoice variant;
     bool loaded = false;
     Mark begin{}, end{};
 };
@@ -106,6 +107,9 @@ private:
             std::string file;
             const Json* member = fields.require("file");
             fields.text("file", file);
+            VariantChoice variant;
+            fields.text("variant", variant.name);
+            if (const Json* chosen = fields.find("variant")) variant.where = chosen->where();
             fields.finish();
             if (!member || file.empty()) continue;
             Path path = path_.parent_path() / file;
@@ -115,7 +119,7 @@ private:
                               "generated models lie in the build's scenes folder");
                 path.clear();
             }
-            models_.push_back({name, path, member->where()});
+            models_.push_back({name, path, member->where(), variant});
         }
         if (models->members().empty()) problems_.add(models->where(), "the scene has no models");
     }
@@ -131,7 +135,7 @@ private:
         model.loaded = true;
         model.begin = markOf(scene_);
         try {
-            loadGltf(model.path, scene_, parent);
+            loadGltf(model.path, scene_, parent, model.variant);
         } catch (const Error& error) {
             problems_.add(error);
             model.path.clear();

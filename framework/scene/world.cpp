@@ -23,6 +23,27 @@ TextureSlotRecord slotRecord(const TextureSlot& slot) {
             .row1 = {-s * slot.scale.x, c * slot.scale.y, slot.offset.y}};
 }
 
+LayersRecord layersRecord(const MaterialLayers& l) {
+    LayersRecord r{.specularColor = l.specularColor,
+                   .specular = l.specular,
+                   .sheenColor = l.sheenColor,
+                   .sheenRoughness = l.sheenRoughness,
+                   .anisotropyDirection = {std::cos(l.anisotropyRotation), std::sin(l.anisotropyRotation)},
+                   .anisotropy = l.anisotropy,
+                   .coat = l.coat,
+                   .coatRoughness = l.coatRoughness,
+                   .coatNormalScale = l.coatNormalScale};
+    r.maps[LAYER_SPECULAR] = slotRecord(l.specularMap);
+    r.maps[LAYER_SPECULAR_COLOR] = slotRecord(l.specularColorMap);
+    r.maps[LAYER_SHEEN_COLOR] = slotRecord(l.sheenColorMap);
+    r.maps[LAYER_SHEEN_ROUGHNESS] = slotRecord(l.sheenRoughnessMap);
+    r.maps[LAYER_ANISOTROPY] = slotRecord(l.anisotropyMap);
+    r.maps[LAYER_COAT] = slotRecord(l.coatMap);
+    r.maps[LAYER_COAT_ROUGHNESS] = slotRecord(l.coatRoughnessMap);
+    r.maps[LAYER_COAT_NORMAL] = slotRecord(l.coatNormalMap);
+    return r;
+}
+
 MaterialRecord materialRecord(const Material& m, bool vertexColor) {
     MaterialRecord r{};
     r.baseColor = m.baseColor;
@@ -37,7 +58,9 @@ MaterialRecord materialRecord(const Material& m, bool vertexColor) {
     r.alphaCutoff = m.alphaCutoff;
     r.flags = (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0) | (m.alphaMode == AlphaMode::mask ? MATERIAL_MASK : 0) |
               (m.alphaMode == AlphaMode::blend ? MATERIAL_BLEND : 0) | (m.solid ? MATERIAL_SOLID : 0) |
-              (m.emission != glm::vec3(0) ? MATERIAL_EMISSIVE : 0) | (vertexColor ? MATERIAL_VERTEX_COLOR : 0);
+              (m.emission != glm::vec3(0) ? MATERIAL_EMISSIVE : 0) | (vertexColor ? MATERIAL_VERTEX_COLOR : 0) |
+              (m.unlit ? MATERIAL_UNLIT : 0);
+    r.layers = NONE;
     r.baseColorMap = slotRecord(m.baseColorMap);
     r.metallicRoughnessMap = slotRecord(m.metallicRoughnessMap);
     r.normalMap = slotRecord(m.normalMap);
@@ -94,7 +117,7 @@ struct WorldBuilder::Shapes {
 
 /// What never changes.
 struct WorldBuilder::Fixed {
-    gpu::Buffer roots, levels, primitives, emitterIndices, materials, textures, texels, environment;
+    gpu::Buffer roots, levels, primitives, emitterIndices, materials, layers, textures, texels, environment;
     std::size_t bytes = 0;
 };
 
@@ -118,7 +141,13 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool r
     : device_(device), scene_(scene), geometry_(std::make_unique<Geometry>(scene)) {
     auto fixed = std::make_shared<Fixed>();
     std::vector<MaterialRecord> materials;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) materials.push_back(materialRecord(scene.materials[i], geometry_->vertexColor[i]));
+    std::vector<LayersRecord> layers;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        materials.push_back(materialRecord(scene.materials[i], geometry_->vertexColor[i]));
+        if (!scene.materials[i].layers) continue;
+        materials.back().layers = std::uint32_t(layers.size());
+        layers.push_back(layersRecord(*scene.materials[i].layers));
+    }
     std::vector<std::uint32_t> texels;
     std::vector<TextureRecord> textures;
     for (const Texture& texture : scene.textures) {
@@ -137,6 +166,7 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool r
     fixed->primitives = upload(geometry_->primitives, "primitives");
     fixed->emitterIndices = upload(geometry_->emitterIndices, "emitters");
     fixed->materials = upload(materials, "materials");
+    fixed->layers = upload(layers, "material layers");
     fixed->texels = upload(texels, "texels");
     for (TextureRecord& texture : textures) texture.texels += fixed->texels.address();
     fixed->textures = upload(textures, "textures");
@@ -245,6 +275,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.positions = moving_->shapes->positions.address();
     w.vertices = moving_->shapes->vertices.address();
     w.materials = fixed_->materials.address();
+    w.layers = fixed_->layers.address();
     w.textures = fixed_->textures.address();
     w.lights = moving_->lights.address();
     w.environment = fixed_->environment.address();

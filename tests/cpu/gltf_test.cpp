@@ -5,6 +5,7 @@
 #include <framework/core/error.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/shading_frame.h>
+#include <framework/scene/tangent_space.h>
 #include <framework/scene/uri.h>
 
 #include <gtest/gtest.h>
@@ -244,6 +245,49 @@ TEST(Gltf, MakesTangentsAndSplitsMirroredVertices) {
     }
 }
 
+/// A fan around vertex 0 at the origin of the plane z = 0, with these texture coordinates.
+MeshLevel fan(const std::vector<glm::vec2>& points, const std::vector<glm::vec2>& uvs, const std::vector<glm::uvec3>& triangles) {
+    MeshLevel level;
+    for (const glm::vec2& p : points) level.positions.emplace_back(p, 0);
+    level.normals.assign(points.size(), {0, 0, 1});
+    level.uv0 = uvs;
+    level.triangles = triangles;
+    return level;
+}
+
+// If this fails, baked normal maps show seams: tangents are means weighted by the angle at the corner, not by area or count.
+TEST(Gltf, WeighsTangentsByTheirAngles) {
+    // Around the origin 90 degrees whose u runs along +X, then 45 degrees of a far larger triangle whose u runs elsewhere.
+    MeshLevel same = fan({{0, 0}, {1, 0}, {0, 1}, {-50, 50}}, {{0, 1}, {1, 1}, {0, 0}, {-1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+    makeTangents(same, {});
+    // e = (0,1), f = (-50,50); s = (0,-1), r = (-1,-1): along = ((0,-1) - (50,-50)) = (-50, 49) times the sign of area -1: (50, -49).
+    const glm::vec2 expected = glm::normalize(2.0f * glm::vec2(1, 0) + 1.0f * glm::normalize(glm::vec2(50, -49)));
+    EXPECT_EQ(same.positions.size(), 4u);
+    expectNear(glm::vec3(same.tangents[0]), {expected.x, expected.y, 0}, 1e-4f);
+}
+
+// If this fails, models whose exporter repeats vertices along edges look faceted, and a triangle without texture area tears its neighbours.
+TEST(Gltf, JoinsTangentsOfEqualVerticesAndOverFlatTriangles) {
+    // Two triangles that share an edge by position only; u turns by 90 degrees between them.
+    const std::vector<glm::vec2> points{{0, 0}, {1, 0}, {0, 1}, {0, 0}, {0, 1}, {-1, 0}};
+    const std::vector<glm::vec2> uvs{{0, 1}, {1, 1}, {0, 0}, {0, 1}, {0, 0}, {-1, 1}};
+    MeshLevel level = fan(points, uvs, {{0, 1, 2}, {3, 4, 5}});
+    makeTangents(level, {});
+    EXPECT_EQ(level.tangents[0], level.tangents[3]);
+    EXPECT_EQ(level.tangents[2], level.tangents[4]);
+
+    // A strip of three; the middle one has one texture coordinate for all corners. It takes the tangents that are there.
+    MeshLevel strip = fan({{0, 0}, {1, 0}, {0, 1}, {1, 1}}, {{0, 0}, {0, 0}, {0, 0}, {0, 0}}, {{0, 1, 2}, {1, 3, 2}});
+    strip.uv0[0] = {0, 1};
+    strip.uv0[1] = {1, 1};
+    strip.uv0[2] = {0, 0};
+    strip.uv0[3] = {0.5f, 0.5f};  // on the line between 1 and 2: no area
+    makeTangents(strip, {});
+    EXPECT_EQ(strip.positions.size(), 4u);
+    for (std::size_t v = 0; v < 3; ++v) expectNear(glm::vec3(strip.tangents[v]), {1, 0, 0});
+    EXPECT_EQ(strip.tangents[1].w, 1);
+}
+
 // If this fails, rotated textures turn the wrong way. The numbers are those of Khronos' TextureTransformTest: the arrow's tip is at
 // uv (0.778, 0.778) of the picture; turned by 22.5 degrees it must be seen at (0.421, 1.016), not at (1.016, 0.421).
 TEST(Gltf, TransformsTextureCoordinates) {
@@ -269,9 +313,9 @@ TEST(Gltf, ReadsMaterialExtensions) {
           {{"KHR_materials_emissive_strength", {{"emissiveStrength", 4}}},
            {"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
            {"KHR_materials_ior", {{"ior", 1.33}}},
-           {"KHR_materials_clearcoat", json::object()},
+           {"KHR_materials_dispersion", json::object()},
            {"KHR_materials_volume", {{"thicknessFactor", 0.1}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 1, 1}}}}}}}};
-    model.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+    model.json["extensionsUsed"] = {"KHR_materials_dispersion", "KHR_materials_iridescence", "KHR_materials_ior"};
     const Scene scene = load(model);
     const Material& glass = scene.materials[0];
     expectNear(glass.emission, {4, 2, 0});
@@ -282,7 +326,54 @@ TEST(Gltf, ReadsMaterialExtensions) {
     EXPECT_FLOAT_EQ(glass.ior, 1.33f);
     EXPECT_TRUE(glass.solid);
     EXPECT_FLOAT_EQ(glass.attenuationDistance, 2);
-    EXPECT_TRUE(hasNote(scene, "ignored: KHR_materials_clearcoat"));
+    EXPECT_TRUE(hasNote(scene, "ignored: KHR_materials_dispersion, KHR_materials_iridescence"));
+    EXPECT_FALSE(glass.layers);
+}
+
+// If this fails, lacquer, cloth and brushed metal look like plastic, or plain materials pay for them.
+TEST(Gltf, ReadsMaterialLayers) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["materials"] = {
+        {{"extensions",
+          {{"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {2, 1, 0}}}},
+           {"KHR_materials_sheen", {{"sheenColorFactor", {0.1, 0.2, 3}}, {"sheenRoughnessFactor", 0.4}}},
+           {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}, {"anisotropyRotation", 1.5}}},
+           {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.7}, {"clearcoatRoughnessFactor", -1}}}}}},
+        {{"extensions",
+          {{"KHR_materials_specular", json::object()},
+           {"KHR_materials_sheen", json::object()},
+           {"KHR_materials_anisotropy", json::object()},
+           {"KHR_materials_clearcoat", {{"clearcoatRoughnessFactor", 0.5}}}}}}};
+    const Scene scene = load(model);
+    ASSERT_TRUE(scene.materials[0].layers);
+    const MaterialLayers& layers = *scene.materials[0].layers;
+    EXPECT_FLOAT_EQ(layers.specular, 0.5f);
+    expectNear(layers.specularColor, {2, 1, 0});
+    expectNear(layers.sheenColor, {0.1f, 0.2f, 1});
+    EXPECT_FLOAT_EQ(layers.sheenRoughness, 0.4f);
+    EXPECT_FLOAT_EQ(layers.anisotropy, 0.6f);
+    EXPECT_FLOAT_EQ(layers.anisotropyRotation, 1.5f);
+    EXPECT_FLOAT_EQ(layers.coat, 0.7f);
+    EXPECT_FLOAT_EQ(layers.coatRoughness, 0);
+    EXPECT_FALSE(scene.materials[1].layers);
+}
+
+// If this fails, baked rooms are lit twice.
+TEST(Gltf, UnlitMaterialsEmitTheirBaseColour) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 1, 0.5}}}},
+                                {"alphaMode", "BLEND"},
+                                {"emissiveFactor", {1, 1, 1}},
+                                {"extensions", {{"KHR_materials_unlit", json::object()}, {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}}}};
+    const Scene scene = load(model);
+    const Material& m = scene.materials[0];
+    EXPECT_TRUE(m.unlit);
+    expectNear(m.emission, {0.25f, 0.5f, 1});
+    EXPECT_EQ(m.baseColor, glm::vec4(0, 0, 0, 0.5f));
+    EXPECT_EQ(m.ior, 1);  // no reflection either
+    EXPECT_FALSE(m.layers);
 }
 
 // If this fails, lights shine elsewhere and the camera of the file isn't used.

@@ -48,6 +48,38 @@ TEST(SceneFile, PlacesInstancesAndSharesMeshes) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) EXPECT_TRUE(scene.nodes[i].parent == none || scene.nodes[i].parent < i);
 }
 
+// If this fails, a shoe comes in one colour only, or a typing mistake in its name in a colour that nobody asked for.
+TEST(SceneFile, ChoosesMaterialVariants) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["materials"] = {{{"name", "plain"}}, {{"name", "midnight"}}, {{"name", "street"}}};
+    model.json["extensionsUsed"] = {"KHR_materials_variants"};
+    model.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "Midnight"}}, {{"name", "Beach"}}, {{"name", "Street"}}};
+    nlohmann::json& primitive = model.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}}, {{"material", 2}, {"variants", {2}}}};
+    model.write(folder() / "shoe.gltf");
+    const auto materialWith = [](const std::string& variant) {
+        writeFile(folder() / "shoe.json", R"({"format": 1, "models": {"shoe": {"file": "shoe.gltf")" + variant + "}}}");
+        const Scene scene = loadScene(folder() / "shoe.json");
+        EXPECT_EQ(hasNote(scene, "material variants to choose from: \"Midnight\", \"Beach\", \"Street\""), variant.empty());
+        return scene.materials[scene.meshes.at(0).levels.at(0).materials.at(0)].name;
+    };
+    EXPECT_EQ(materialWith(""), "plain");
+    EXPECT_EQ(materialWith(R"(, "variant": "Midnight")"), "midnight");
+    EXPECT_EQ(materialWith(R"(, "variant": "Beach")"), "plain");
+    EXPECT_EQ(materialWith(R"(, "variant": "Street")"), "street");
+    try {
+        materialWith(R"(, "variant": "Midnite")");
+        FAIL() << "it was loaded";
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("shoe.json:1:"), std::string::npos) << text;
+        EXPECT_NE(text.find("shoe.gltf has no material variant \"Midnite\""), std::string::npos) << text;
+        EXPECT_NE(text.find("did you mean \"Midnight\""), std::string::npos) << text;
+    }
+}
+
 // If this fails, a file without "instances" shows nothing.
 TEST(SceneFile, PlacesEveryModelOnceByItself) {
     const Scene scene = load(R"({"format": 1, "models": {"one": {"file": "triangle.gltf"}, "two": {"file": "triangle.gltf"}}})");

@@ -72,6 +72,30 @@ TEST_F(Furnace, MirrorHasNoNoise) { expectInvisible(frames("mirror", mirror, {{"
 // 64 scatterings leave less than 1e-4 of the light in the box.
 TEST_F(Furnace, Glass) { expectSame(frames("glass", glass, {{"spp", 32}, {"bounces", 64}}), ones(), 0.005); }
 
+// A clear coat takes away from a mirror just what it reflects itself.
+TEST_F(Furnace, MirrorUnderAClearCoat) {
+    Paint lacquered = mirror;
+    lacquered.layers = {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1.0}}}};
+    expectSame(frames("lacquered", lacquered, {{"spp", 32}, {"bounces", 2}}), ones(), 0.005);
+}
+
+// All layers at once lose some light, make none, and look the same whatever finds the light.
+TEST_F(Furnace, AllLayersLoseLittleAndMakeNothing) {
+    Paint all{.color = Point(1), .metallic = 0.3, .roughness = 0.4, .ior = 1.5, .transmission = 0.2};
+    all.layers = {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatRoughnessFactor", 0.2}}},
+                  {"KHR_materials_sheen", {{"sheenColorFactor", {0.8, 0.8, 0.8}}, {"sheenRoughnessFactor", 0.4}}},
+                  {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.7}, {"anisotropyRotation", 0.5}}},
+                  {"KHR_materials_specular", {{"specularFactor", 0.9}, {"specularColorFactor", {3.0, 3.0, 3.0}}}}};
+    const auto both = frames("layers", all, {{"spp", 64}, {"bounces", 32}});
+    const auto scattered = frames("layers_bsdf", all, {{"spp", 64}, {"bounces", 32}, {"estimator", "bsdf"}});
+    ASSERT_FALSE(HasFailure());
+    expectSame(both, scattered, 0.005);
+    const double energy = energyOf(both);
+    std::printf("all layers return %.4f of the light\n", energy);
+    EXPECT_LT(energy, 1.0);
+    EXPECT_GT(energy, 0.9);
+}
+
 // Under a smooth layer the diffuse base returns all that enters, up to a fit of the mean Fresnel reflectance (error below 0.5 %).
 TEST_F(Furnace, DiffuseUnderASmoothLayer) {
     const Paint coated{.color = Point(1), .roughness = 0, .ior = 1.5};

@@ -25,6 +25,7 @@ struct Paint {
     double ior = 1;  ///< 1: no reflecting layer over the diffuse base
     double transmission = 0;
     bool solid = false;
+    OrderedJson layers = OrderedJson::object();  ///< further extensions of the material
 };
 
 /// A parallelogram; the front is the side that cross(a, b) points to.
@@ -99,6 +100,7 @@ inline void writeModel(const Path& folder, const std::string& name, const std::v
         }
         if (paint.transmission > 0) material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", paint.transmission}};
         if (paint.solid) material["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1.0}};
+        material["extensions"].update(paint.layers);
         gltf["materials"].push_back(material);
     }
     gltf["buffers"] = OrderedJson::array({OrderedJson{{"uri", name + ".bin"}, {"byteLength", numbers.size() * sizeof(float)}}});

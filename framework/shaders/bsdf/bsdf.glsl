@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The scattering of a glTF metallic-roughness surface as four lobes: diffuse reflection, specular reflection, specular transmission
-// and, for alpha BLEND, passage straight on.
+// The scattering of a glTF metallic-roughness surface as five lobes: diffuse reflection (cloth's sheen with it), specular reflection, specular
+// transmission, specular reflection by a clear coat and, for alpha BLEND, passage straight on.
 //
-// glTF 2.0 appendix B with KHR_materials_transmission, _ior and _volume, with these choices:
-// - The dielectric Fresnel term is exact; metals use Schlick's. Specular reflection is their mixture by `metallic`.
+// glTF 2.0 appendix B with KHR_materials_transmission, _ior, _volume, _specular, _anisotropy, _sheen and _clearcoat, with these choices:
+// - The dielectric Fresnel term is exact; metals use Schlick's. Specular reflection is their mixture by `metallic`. KHR_materials_specular
+//   takes the exact term's place between normal and grazing incidence over to its own colours.
 // - What lies under the dielectric layer is reached through it twice, (1 - F(o)) (1 - F(i)) / (1 - mean F) (Ashikhmin and Shirley 2000's
 //   coupling with Kelemen and Szirmay-Kalos 2001's norm), instead of appendix B's 1 - F(half): reciprocal as well, and a white
 //   diffuse surface then returns all light under a smooth layer, where appendix B's returns more than it got at grazing angles.
+//   F is here the largest of its channels, as KHR_materials_specular asks: what is left has no complementary tint.
+// - What lies under a coat or sheen gets min(T(o), T(i)), T being what that layer leaves of light along a direction: KHR_materials_sheen's
+//   rule, for the coat too, whose 1 - F(o) alone would not be reciprocal. A mirror under a coat so returns all light, a diffuse base some
+//   percent less.
 // - Thin walls: the microfacet reflection turned over to the far side, tinted by the base colour. Solids refract (Walter et al. 2007).
-//   Radiance grows or shrinks by the square of the indices' ratio when it is refracted, so the lobe carries 1 / eta^2.
+//   Radiance grows or shrinks by the square of the indices' ratio when it is refracted, so the lobe carries 1 / eta^2. Coat and sheen of
+//   a solid are outside.
 // - Scattering between microfacets is left out, as in appendix B: rough metals and rough glass lose some energy.
 // - Lobes narrower than alpha = 1e-3 are delta lobes.
 //
@@ -16,12 +22,14 @@
 #include "base/sampling.glsl"
 #include "bsdf/fresnel.glsl"
 #include "bsdf/ggx.glsl"
+#include "bsdf/sheen.glsl"
 
 const uint LOBE_DIFFUSE = 0u;
 const uint LOBE_REFLECTION = 1u;
 const uint LOBE_TRANSMISSION = 2u;
-const uint LOBE_THROUGH = 3u;
-const uint LOBE_COUNT = 4u;
+const uint LOBE_COAT = 3u;
+const uint LOBE_THROUGH = 4u;  // the only one that a Reservoir can't name: paths are never connected at a delta lobe
+const uint LOBE_COUNT = 5u;
 const uint LOBE_ALL = 0xffffffffu;
 
 const float ALPHA_DELTA = 1e-3;  // narrower lobes are delta lobes: at 1e-3 a lobe is 0.1 degrees wide, a 20th of a pixel's reflection
@@ -34,11 +42,39 @@ struct Bsdf {
     vec3 base;           // base colour
     float metallic;      // share of metal
     float transmission;  // share of the dielectric's base that transmits instead of scattering diffusely
-    float alpha;         // GGX width, roughness squared
+    float alpha;         // GGX width, roughness squared; across the tangent
     float eta;           // index of refraction beyond the surface / before it, as the viewer sees it
     float coverage;      // the rest goes straight on
     bool solid;          // refracts; else a thin wall
+
+    // Neutral for most materials (plainBsdf).
+    float along;             // GGX width along the tangent, >= alpha
+    vec3 tangent;            // unit, at right angles to the normal; without meaning where both widths are equal
+    float specular;          // the dielectric's reflectance at grazing incidence
+    vec3 specularShift;      // specularShiftOf
+    vec3 sheen;              // colour; black: none
+    float sheenRoughness;    // perceptual
+    float coat, coatAlpha;   // how much of a clear coat there is, and its GGX width
+    vec3 coatNormal;         // unit, towards the viewer
 };
+
+/// A surface without layers, isotropic.
+Bsdf plainBsdf(vec3 normal, vec3 geometric, vec3 base, float metallic, float transmission, float alpha, float eta, float coverage, bool solid) {
+    return Bsdf(normal, geometric, base, metallic, transmission, alpha, eta, coverage, solid, alpha, vec3(0.0), 1.0, vec3(0.0), vec3(0.0), 1.0,
+                0.0, 1.0, normal);
+}
+
+const float COAT_ETA = 1.5;  // KHR_materials_clearcoat: F0 = 0.04
+
+/// Index of refraction to reflectance at normal incidence.
+float normalReflectance(float eta) { return square((eta - 1.0) / (eta + 1.0)); }
+
+/// KHR_materials_specular: F0' = min(F0 color, 1) specular and F90' = specular. With the exact F between F0 and 1 that is
+/// specular F + shift (1 - F), shift = specular (min(F0 color, 1) - F0) / (1 - F0).
+vec3 specularShiftOf(float eta, float specular, vec3 color) {
+    float f0 = normalReflectance(eta);
+    return specular * (min(f0 * color, 1.0) - f0) / max(1.0 - f0, 1e-6);
+}
 
 struct BsdfSample {
     vec3 wi;
@@ -58,88 +94,158 @@ struct BsdfValue {
 
 bool reflectionDelta(Bsdf b) { return b.alpha < ALPHA_DELTA; }
 bool transmissionDelta(Bsdf b) { return b.alpha < ALPHA_DELTA || (b.solid && abs(b.eta - 1.0) < ETA_MATCHED); }
+bool coatDelta(Bsdf b) { return b.coatAlpha < ALPHA_DELTA; }
 
 bool lobeDelta(Bsdf b, uint lobe) {
-    return lobe == LOBE_REFLECTION ? reflectionDelta(b) : lobe == LOBE_TRANSMISSION ? transmissionDelta(b) : lobe == LOBE_THROUGH;
+    return lobe == LOBE_REFLECTION ? reflectionDelta(b) : lobe == LOBE_TRANSMISSION ? transmissionDelta(b)
+         : lobe == LOBE_COAT ? coatDelta(b) : lobe == LOBE_THROUGH;
 }
 
-/// Perceptual roughness: 1 for the diffuse lobe, 0 for delta lobes.
-float lobeRoughness(Bsdf b, uint lobe) { return lobe == LOBE_DIFFUSE ? 1.0 : lobeDelta(b, lobe) ? 0.0 : sqrt(b.alpha); }
-
-/// Reflectance of a facet seen under `cosine`, given the dielectric's reflectance there.
-vec3 specularColor(Bsdf b, float cosine, float dielectric) {
-    return mix(vec3(dielectric), fresnelSchlick(b.base, cosine), b.metallic);
+/// Perceptual roughness, of anisotropic lobes across: 1 for the diffuse lobe, 0 for delta lobes.
+float lobeRoughness(Bsdf b, uint lobe) {
+    return lobe == LOBE_DIFFUSE ? 1.0 : lobeDelta(b, lobe) ? 0.0 : sqrt(lobe == LOBE_COAT ? b.coatAlpha : b.alpha);
 }
+
+/// Share of the dielectric's light that is reflected in the channel that reflects most, for exact reflectance `fresnel` (or its mean).
+float dielectricShare(Bsdf b, float fresnel) {
+    return clamp(b.specular * fresnel + maxComponent(b.specularShift) * (1.0 - fresnel), 0.0, 1.0);  // dense media dip below F0 on the way
+}
+
+/// Reflectance of a facet seen under `cosine`, given the dielectric's exact reflectance there.
+vec3 specularColor(Bsdf b, float cosine, float fresnel) {
+    return mix(max(b.specular * fresnel + b.specularShift * (1.0 - fresnel), 0.0), fresnelSchlick(b.base, cosine), b.metallic);
+}
+
+/// Coat and sheen of a solid are seen from outside only.
+bool insideSolid(Bsdf b) { return b.solid && b.eta < 1.0; }
+bool hasCoat(Bsdf b) { return b.coat > 0.0 && !insideSolid(b); }
+bool hasSheen(Bsdf b) { return maxComponent(b.sheen) > 0.0 && !insideSolid(b); }
+
+/// What coat and sheen leave of light along a direction w of either side.
+struct LayerShares {
+    float underCoat;  // what reaches the sheen
+    float sheen;      // albedo of a white sheen
+    float base;       // what reaches the base
+};
+
+LayerShares layerShares(Bsdf b, vec3 w) {
+    LayerShares shares = LayerShares(1.0, 0.0, 1.0);
+    if (b.coat > 0.0) shares.underCoat = 1.0 - b.coat * fresnelDielectric(min(abs(dot(b.coatNormal, w)), 1.0), COAT_ETA);
+    float sheen = maxComponent(b.sheen);
+    if (sheen > 0.0) shares.sheen = sheenAlbedo(abs(dot(b.normal, w)), b.sheenRoughness);
+    shares.base = shares.underCoat * (1.0 - sheen * min(shares.sheen, 1.0));
+    return shares;
+}
+
+/// What the layers leave of the base's light between two directions: the smaller share, but of a solid only what is outside counts.
+float layersLeave(Bsdf b, vec3 wo, vec3 wi) {
+    if (!(b.coat > 0.0 || maxComponent(b.sheen) > 0.0)) return 1.0;
+    bool inside = insideSolid(b), crosses = dot(b.normal, wi) < 0.0;
+    float share = 1.0;
+    if (!inside) share = layerShares(b, wo).base;
+    if (b.solid ? inside == crosses : true) share = min(share, layerShares(b, wi).base);
+    return share;
+}
+
+/// Chances of the lobes: `scatter` of LOBE_DIFFUSE to LOBE_COAT.
+struct LobeChances {
+    vec4 scatter;
+    float through;
+};
+float lobeChance(LobeChances c, uint lobe) { return lobe < LOBE_THROUGH ? c.scatter[lobe] : lobe == LOBE_THROUGH ? c.through : 0.0; }
+float chanceSum(LobeChances c) { return dot(c.scatter, vec4(1.0)) + c.through; }
 
 /// Chances of the lobes, from the light that each sends under the Fresnel terms of the view angle. Their sum is 1, or 0 where the surface
 /// is black. A lobe that can send light has LOBE_SHARE at least (before the sum is made 1).
-vec4 lobeProbabilities(Bsdf b, vec3 wo) {
+LobeChances lobeProbabilities(Bsdf b, vec3 wo) {
     float cosine = clamp(dot(b.normal, wo), 0.0, 1.0), dielectric = 1.0 - b.metallic;
-    float fresnel = fresnelDielectric(cosine, b.eta), base = luminance(b.base);
-    vec4 share = vec4(dielectric * (1.0 - b.transmission) * (1.0 - fresnel) * base,   // diffuse
+    float fresnel = fresnelDielectric(cosine, b.eta), base = luminance(b.base), under = 1.0 - dielectricShare(b, fresnel);
+    vec4 share = vec4(dielectric * (1.0 - b.transmission) * under * base,             // diffuse
                       luminance(specularColor(b, cosine, fresnel)),                   // specular reflection
-                      dielectric * b.transmission * (1.0 - fresnel) * base, 0.0);     // specular transmission
+                      dielectric * b.transmission * under * base, 0.0);               // specular transmission
     // Facets of a rough surface are met under other angles: they may send light where the mean surface sends none.
     bvec4 possible = greaterThan(share, vec4(0.0));
     if (b.alpha >= ALPHA_DELTA) {
         possible.y = possible.y || b.metallic > 0.0;
         possible.z = possible.z || dielectric * b.transmission * base > 0.0;
     }
+    if (hasCoat(b) || hasSheen(b)) {
+        LayerShares layers = layerShares(b, wo);
+        float sheen = layers.underCoat * min(layers.sheen, 1.0) * luminance(b.sheen);
+        share.xyz = share.xyz * layers.base + vec3(sheen, 0.0, 0.0);
+        share.w = dot(b.coatNormal, wo) > 0.0 ? 1.0 - layers.underCoat : 0.0;
+        possible.x = possible.x || hasSheen(b);
+        possible.w = share.w > 0.0;
+    }
     share *= b.coverage;
-    share.w = 1.0 - b.coverage;
     if (b.coverage <= 0.0) possible = bvec4(false);
-    possible.w = share.w > 0.0;
-    float sum = max(dot(share, vec4(1.0)), 1e-20);
-    share = mix(vec4(0.0), max(share / sum, vec4(LOBE_SHARE)), possible);
-    return share / max(dot(share, vec4(1.0)), 1e-20);
+    LobeChances chance = LobeChances(share, 1.0 - b.coverage);
+    float sum = max(chanceSum(chance), 1e-20);
+    chance.scatter = mix(vec4(0.0), max(share / sum, vec4(LOBE_SHARE)), possible);
+    chance.through = chance.through > 0.0 ? max(chance.through / sum, LOBE_SHARE) : 0.0;
+    sum = max(chanceSum(chance), 1e-20);
+    chance.scatter /= sum;
+    chance.through /= sum;
+    return chance;
+}
+
+/// Adds one lobe's f |cos| and density to the sums.
+void addLobe(inout BsdfValue value, bool isAsked, vec3 f, float pdf) {
+    value.all += f;
+    value.pdf += pdf;
+    if (!isAsked) return;
+    value.one = f;
+    value.onePdf = pdf;
 }
 
 /// f |cos| and densities for light from wi seen from wo; `one` is the given lobe. Zero where a side is wrong.
 BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
     BsdfValue value = BsdfValue(vec3(0.0), vec3(0.0), 0.0, 0.0);
     float cosO = dot(b.normal, wo), cosI = dot(b.normal, wi), side = dot(b.geometric, wi);
-    bool reflected = cosI > 0.0 && side > 0.0, transmitted = cosI < 0.0 && side < 0.0;
-    if (!(cosO > 0.0 && (reflected || transmitted))) return value;
-    vec4 chance = lobeProbabilities(b, wo);
-    float dielectric = 1.0 - b.metallic;
+    bool reflected = cosI > 0.0 && side > 0.0, transmitted = cosI < 0.0 && side < 0.0, coated = hasCoat(b) && side > 0.0;
+    if (!(cosO > 0.0 && (reflected || transmitted || coated))) return value;
+    LobeChances chance = lobeProbabilities(b, wo);
+    float dielectric = 1.0 - b.metallic, scale = b.coverage * layersLeave(b, wo, wi);
 
-    if (reflected && chance.x > 0.0) {
-        float through = (1.0 - fresnelDielectric(min(cosO, 1.0), b.eta)) * (1.0 - fresnelDielectric(min(cosI, 1.0), b.eta)) /
-                        (1.0 - fresnelDielectricMean(b.eta));
-        vec3 f = b.base * (b.coverage * dielectric * (1.0 - b.transmission) * through * INV_PI * cosI);
-        float pdf = chance.x * INV_PI * cosI;
-        value.all += f;
-        value.pdf += pdf;
-        if (lobe == LOBE_DIFFUSE) {
-            value.one = f;
-            value.onePdf = pdf;
+    if (reflected && chance.scatter.x > 0.0) {
+        float mean = dielectricShare(b, fresnelDielectricMean(b.eta));
+        float through = (1.0 - dielectricShare(b, fresnelDielectric(min(cosO, 1.0), b.eta))) *
+                        (1.0 - dielectricShare(b, fresnelDielectric(min(cosI, 1.0), b.eta))) / max(1.0 - mean, 1e-6);
+        vec3 f = b.base * (scale * dielectric * (1.0 - b.transmission) * through * INV_PI * cosI);
+        if (hasSheen(b)) {
+            LayerShares o = layerShares(b, wo), i = layerShares(b, wi);
+            vec3 h = safeNormalize(wo + wi, b.normal);
+            float sheen = sheenValue(min(cosO, 1.0), min(cosI, 1.0), o.sheen, i.sheen, length(cross(b.normal, h)), b.sheenRoughness);
+            f += b.sheen * (b.coverage * min(o.underCoat, i.underCoat) * sheen * cosI);
         }
+        addLobe(value, lobe == LOBE_DIFFUSE, f, chance.scatter.x * INV_PI * cosI);
     }
 
-    // Both specular lobes share the half vector h and the distribution at it. Through a thin wall wi is seen mirrored at the wall.
-    bool refracted = transmitted && b.solid;
-    uint specular = reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;
-    float specularChance = reflected ? chance.y : chance.z;
-    if (specularChance <= 0.0 || lobeDelta(b, specular)) return value;
-    vec3 sum = wo + (refracted ? b.eta * wi : reflected ? wi : wi - 2.0 * cosI * b.normal);
-    vec3 h = safeNormalize(sum, b.normal);
-    h = dot(h, b.normal) < 0.0 ? -h : h;
-    float cosH = min(dot(wo, h), 1.0), cosHI = dot(wi, h);
-    if (cosH <= 0.0 || (refracted && cosHI >= 0.0)) return value;
-    cosI = abs(cosI);
-    float distribution = ggxDistribution(b.normal, h, b.alpha), fresnel = fresnelDielectric(cosH, b.eta);
-    // Walter et al. 2007, eq. 17, 21: f |cosI| = G2 D |o.h| |i.h| / (cosO (eta i.h + o.h)^2) with the squared length of `sum` below; half
-    // vectors become directions with the density's factor eta^2 |i.h| / (eta i.h + o.h)^2. For reflection it is 1 / (4 o.h), eq. 14.
-    float jacobian = refracted ? abs(cosHI) / dot(sum, sum) : 0.25;
-    float f = distribution * ggxVisibility(cosO, cosI, b.alpha) * cosI * (refracted ? 4.0 * cosH * jacobian : 1.0);
-    float pdf = ggxVisibleDensity(cosO, distribution, b.alpha) * (refracted ? cosH * b.eta * b.eta * jacobian : jacobian);
-    vec3 color = reflected ? specularColor(b, cosH, fresnel) : b.base * (dielectric * b.transmission * (1.0 - fresnel));
-    vec3 scattered = color * (b.coverage * f);
-    value.all += scattered;
-    value.pdf += specularChance * pdf;
-    if (lobe == specular) {
-        value.one = scattered;
-        value.onePdf = specularChance * pdf;
+    // The specular lobes: the base's on this side or the other, and the coat's. Both of the base share the half vector h and the distribution
+    // at it. Through a thin wall wi is seen mirrored at the wall.
+    for (uint layer = 0u; layer < (coated ? 2u : 1u); ++layer) {
+        bool isCoat = layer == 1u, refracted = transmitted && b.solid && !isCoat, mirrored = reflected || isCoat;
+        uint specular = isCoat ? LOBE_COAT : reflected ? LOBE_REFLECTION : LOBE_TRANSMISSION;
+        float specularChance = chance.scatter[specular];
+        Facets facets = isCoat ? Facets(b.coatNormal, vec3(0.0), b.coatAlpha, b.coatAlpha) : Facets(b.normal, b.tangent, b.alpha, b.along);
+        float facetO = isCoat ? dot(b.coatNormal, wo) : cosO, facetI = isCoat ? dot(b.coatNormal, wi) : cosI;
+        if (specularChance <= 0.0 || lobeDelta(b, specular) || (isCoat ? facetI <= 0.0 : !(reflected || transmitted))) continue;
+        vec3 sum = wo + (refracted ? b.eta * wi : mirrored ? wi : wi - 2.0 * cosI * b.normal);
+        vec3 h = safeNormalize(sum, facets.normal);
+        h = dot(h, facets.normal) < 0.0 ? -h : h;
+        float cosH = min(dot(wo, h), 1.0), cosHI = dot(wi, h);
+        if (cosH <= 0.0 || (refracted && cosHI >= 0.0)) continue;
+        float distribution = ggxDistribution(facets, h), fresnel = fresnelDielectric(cosH, isCoat ? COAT_ETA : b.eta);
+        float slopeO = ggxSlope(facets, wo, facetO), slopeI = ggxSlope(facets, wi, facetI);
+        facetI = abs(facetI);
+        // Walter et al. 2007, eq. 17, 21: f |cosI| = G2 D |o.h| |i.h| / (cosO (eta i.h + o.h)^2) with the squared length of `sum` below; half
+        // vectors become directions with the density's factor eta^2 |i.h| / (eta i.h + o.h)^2. For reflection it is 1 / (4 o.h), eq. 14.
+        float jacobian = refracted ? abs(cosHI) / dot(sum, sum) : 0.25;
+        float f = distribution * ggxVisibility(facetO, slopeO, facetI, slopeI) * facetI * (refracted ? 4.0 * cosH * jacobian : 1.0);
+        float pdf = ggxVisibleDensity(facetO, slopeO, distribution) * (refracted ? cosH * b.eta * b.eta * jacobian : jacobian);
+        vec3 color = isCoat ? vec3(b.coat * fresnel) : mirrored ? specularColor(b, cosH, fresnel)
+                                                                : b.base * (dielectric * b.transmission * (1.0 - dielectricShare(b, fresnel)));
+        addLobe(value, lobe == specular, color * ((isCoat ? b.coverage : scale) * f), specularChance * pdf);
     }
     return value;
 }
@@ -160,17 +266,19 @@ vec3 lobeEval(Bsdf b, uint lobe, vec3 wo, vec3 wi, out float pdf) {
 
 /// No lobe that light sampling could serve.
 bool bsdfAllDelta(Bsdf b, vec3 wo) {
-    vec4 chance = lobeProbabilities(b, wo);
-    return !(chance.x > 0.0 || (chance.y > 0.0 && !reflectionDelta(b)) || (chance.z > 0.0 && !transmissionDelta(b)));
+    vec4 chance = lobeProbabilities(b, wo).scatter;
+    return !(chance.x > 0.0 || (chance.y > 0.0 && !reflectionDelta(b)) || (chance.z > 0.0 && !transmissionDelta(b)) ||
+             (chance.w > 0.0 && !coatDelta(b)));
 }
 
 /// The lobe whose share of [0, 1) holds u; LOBE_COUNT where the surface is black.
-uint chooseLobe(vec4 chance, float u) {
+uint chooseLobe(LobeChances chances, float u) {
     uint lobe = LOBE_COUNT;
     for (uint l = 0u; l < LOBE_COUNT; ++l) {
-        if (chance[l] <= 0.0) continue;
+        float chance = lobeChance(chances, l);
+        if (chance <= 0.0) continue;
         lobe = l;
-        u -= chance[l];
+        u -= chance;
         if (u < 0.0) break;
     }
     return lobe;
@@ -180,20 +288,30 @@ uint chooseLobe(vec4 chance, float u) {
 vec3 lobeDirection(Bsdf b, uint lobe, vec3 wo, vec2 u, out vec3 deltaValue) {
     deltaValue = vec3(1.0 - b.coverage);
     if (lobe == LOBE_THROUGH) return -wo;
-    mat3 frame = basisAround(b.normal);
+    bool isCoat = lobe == LOBE_COAT;
+    vec3 normal = isCoat ? b.coatNormal : b.normal;
+    mat3 frame = basisAround(normal);
     if (lobe == LOBE_DIFFUSE) return frame * cosineHemisphere(u);
 
-    vec3 h = lobeDelta(b, lobe) ? b.normal : frame * ggxSampleHalf(wo * frame, b.alpha, u);
+    vec2 widths = isCoat ? vec2(b.coatAlpha) : vec2(b.along, b.alpha);
+    if (widths.x != widths.y) frame = mat3(b.tangent, cross(b.normal, b.tangent), b.normal);
+    vec3 h = lobeDelta(b, lobe) ? normal : frame * ggxSampleHalf(wo * frame, widths, u);
     float cosH = clamp(dot(wo, h), 0.0, 1.0);
-    vec3 mirrored = 2.0 * cosH * h - wo;
-    float fresnel = fresnelDielectric(cosH, b.eta);
-    deltaValue = b.coverage * specularColor(b, cosH, fresnel);
-    if (lobe == LOBE_REFLECTION) return mirrored;
-    deltaValue = b.base * (b.coverage * (1.0 - b.metallic) * b.transmission * (1.0 - fresnel));
-    if (!b.solid) return mirrored - 2.0 * dot(mirrored, b.normal) * b.normal;
-    deltaValue /= b.eta * b.eta;
-    float inner = 1.0 - (1.0 - cosH * cosH) / (b.eta * b.eta);
-    return inner <= 0.0 ? vec3(0.0) : (cosH / b.eta - sqrt(inner)) * h - wo / b.eta;
+    vec3 mirrored = 2.0 * cosH * h - wo, direction = mirrored;
+    float fresnel = fresnelDielectric(cosH, isCoat ? COAT_ETA : b.eta);
+    deltaValue = isCoat ? vec3(b.coat * fresnel) : specularColor(b, cosH, fresnel);
+    if (lobe == LOBE_TRANSMISSION) {
+        deltaValue = b.base * ((1.0 - b.metallic) * b.transmission * (1.0 - dielectricShare(b, fresnel)));
+        if (b.solid) {
+            deltaValue /= b.eta * b.eta;
+            float inner = 1.0 - (1.0 - cosH * cosH) / (b.eta * b.eta);
+            direction = inner <= 0.0 ? vec3(0.0) : (cosH / b.eta - sqrt(inner)) * h - wo / b.eta;
+        } else {
+            direction = mirrored - 2.0 * dot(mirrored, b.normal) * b.normal;
+        }
+    }
+    deltaValue *= isCoat ? b.coverage : b.coverage * layersLeave(b, wo, direction);
+    return direction;
 }
 
 /// A direction that light may come from, not yet weighed: whoever stores it with fewer bits weighs what is stored.
@@ -208,20 +326,20 @@ struct BsdfDirection {
 /// u.x chooses the lobe, u.yz the direction.
 BsdfDirection bsdfDirection(Bsdf b, vec3 wo, vec3 u) {
     BsdfDirection result = BsdfDirection(vec3(0.0), LOBE_COUNT, false, 0.0, vec3(0.0));
-    vec4 chance = lobeProbabilities(b, wo);
+    LobeChances chance = lobeProbabilities(b, wo);
     uint lobe = chooseLobe(chance, u.x);
     if (lobe == LOBE_COUNT || !(dot(b.normal, wo) > 0.0)) return result;
     result.wi = safeNormalize(lobeDirection(b, lobe, wo, u.yz, result.deltaValue), vec3(0.0));
     result.lobe = lobe;
     result.delta = lobeDelta(b, lobe);
-    result.chance = chance[lobe];
+    result.chance = lobeChance(chance, lobe);
     return result;
 }
 
 /// The delta lobe's sample. pdf = 0 where it is refused.
 BsdfSample deltaSample(Bsdf b, BsdfDirection d) {
     float side = dot(b.geometric, d.wi);
-    if (d.lobe == LOBE_REFLECTION ? side <= 0.0 : side >= 0.0) return BsdfSample(d.wi, vec3(0.0), 0.0, vec3(0.0), 0.0, d.lobe, true);
+    if (d.lobe == LOBE_REFLECTION || d.lobe == LOBE_COAT ? side <= 0.0 : side >= 0.0) return BsdfSample(d.wi, vec3(0.0), 0.0, vec3(0.0), 0.0, d.lobe, true);
     vec3 weight = d.deltaValue / d.chance;
     return BsdfSample(d.wi, weight, d.chance, weight, d.chance, d.lobe, true);
 }

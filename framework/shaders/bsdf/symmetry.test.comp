@@ -19,7 +19,19 @@ void main() {
     vec3 n = safeNormalize(random3(seed, 0u, 3u) - 0.5, vec3(0, 0, 1));
     mat3 frame = basisAround(n);
     vec3 a = frame * cosineHemisphere(random2(seed, 0u, 4u)), c = frame * cosineHemisphere(random2(seed, 0u, 5u));
-    Bsdf b = Bsdf(n, n, random3(seed, 0u, 2u), mix1.x, mix1.y, 0.05 + 0.95 * mix1.z, 1.1 + 0.9 * mix2.x, mix2.y, mix2.z > 0.5);
+    Bsdf b = plainBsdf(n, n, random3(seed, 0u, 2u), mix1.x, mix1.y, 0.05 + 0.95 * mix1.z, 1.1 + 0.9 * mix2.x, mix2.y, mix2.z > 0.5);
+    // Half of them with layers: a coat with its own normal on both sides' front, cloth, brushed, tinted.
+    vec3 e = random3(seed, 0u, 6u), f = random3(seed, 0u, 7u);
+    if (e.x < 0.5) {
+        b.specular = e.y;
+        b.specularShift = specularShiftOf(b.eta, e.y, 4.0 * f);
+        b.sheen = random3(seed, 0u, 8u);
+        b.sheenRoughness = max(SHEEN_ROUGHNESS_MIN, e.z);
+        b.coat = f.x;
+        b.coatAlpha = 0.05 + 0.95 * f.y;
+        b.tangent = frame[0];
+        b.along = mix(b.alpha, 1.0, f.z);
+    }
     float pdf;
 
     // Reflection: f(a, c) = f(c, a).
@@ -27,7 +39,7 @@ void main() {
 
     // Transmission: f / eta^2 is the same both ways; the way back starts on the other side, where a solid's ratio of indices is inverse.
     Bsdf back = b;
-    back.normal = back.geometric = -n;
+    back.normal = back.geometric = back.coatNormal = -n;
     if (b.solid) back.eta = 1.0 / b.eta;
     vec3 away = -c;
     vec3 there = bsdfEval(b, a, away, pdf) / abs(dot(n, away));

@@ -11,6 +11,7 @@ vec3 emissionOn(World w, uint material, uvec3 corners, vec2 barycentrics) {
         emission *= readMap(w, w.materials.at[material].emissiveMap, uv, corners, barycentrics).rgb;
     }
     uint flags = w.materials.at[material].flags;
+    if ((flags & MATERIAL_UNLIT) != 0u) emission *= vertexColorOn(w, material, corners, barycentrics).rgb;
     if ((flags & (MATERIAL_MASK | MATERIAL_BLEND)) != 0u) {
         float alpha = alphaOn(w, material, corners, barycentrics);
         emission *= (flags & MATERIAL_BLEND) != 0u ? clamp(alpha, 0.0, 1.0) : alpha >= w.materials.at[material].alphaCutoff ? 1.0 : 0.0;

@@ -63,9 +63,10 @@ ConnectionCriteria criteriaOf(ShiftRules rules) { return ConnectionCriteria(rule
 
 /// Roughness of a vertex that scatters towards a light sample with all its lobes: that of the roughest. 0 where all are delta lobes.
 float roughestLobe(Bsdf b, vec3 wo) {
-    vec4 chance = lobeProbabilities(b, wo);
+    vec4 chance = lobeProbabilities(b, wo).scatter;
     if (chance.x > 0.0) return 1.0;
-    return max(chance.y > 0.0 ? lobeRoughness(b, LOBE_REFLECTION) : 0.0, chance.z > 0.0 ? lobeRoughness(b, LOBE_TRANSMISSION) : 0.0);
+    float base = max(chance.y > 0.0 ? lobeRoughness(b, LOBE_REFLECTION) : 0.0, chance.z > 0.0 ? lobeRoughness(b, LOBE_TRANSMISSION) : 0.0);
+    return max(base, chance.w > 0.0 ? lobeRoughness(b, LOBE_COAT) : 0.0);
 }
 
 /// Whether the light behind `vertex`, found by light sampling, may be x_k itself: always where the numbers alone don't tell the light

@@ -6,7 +6,7 @@
 #include "world/world.h"
 
 const uint TEST_INSTANCES = 0u, TEST_PRIMITIVES = 1u, TEST_EMITTERS = 2u, TEST_POSITIONS = 3u, TEST_VERTICES = 4u, TEST_MATERIALS = 5u;
-const uint TEST_TEXTURES = 6u, TEST_LIGHTS = 7u, TEST_ENVIRONMENT = 8u, TEST_TEXELS = 9u, TEST_SUMS = 16u;
+const uint TEST_TEXTURES = 6u, TEST_LIGHTS = 7u, TEST_ENVIRONMENT = 8u, TEST_TEXELS = 9u, TEST_LAYERS = 10u, TEST_SUMS = 16u;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestInstances { InstanceRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestPrimitives { PrimitiveRecord at[]; };
@@ -14,6 +14,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestUints { 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestPositions { vec3 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestVertices { VertexRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestMaterials { MaterialRecord at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestLayers { LayersRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer TestTextures { TextureRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestLights { LightRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestEnvironment { EnvironmentTexel at[]; };
@@ -36,6 +37,7 @@ World testWorld() {
     w.positions = Vec3Array(testArray(TEST_POSITIONS));
     w.vertices = VertexArray(testArray(TEST_VERTICES));
     w.materials = MaterialArray(testArray(TEST_MATERIALS));
+    w.layers = LayersArray(testArray(TEST_LAYERS));
     w.textures = TextureArray(testArray(TEST_TEXTURES));
     w.lights = LightArray(testArray(TEST_LIGHTS));
     w.environment = EnvironmentArray(testArray(TEST_ENVIRONMENT));
@@ -51,7 +53,7 @@ TextureSlotRecord testSlot(uint id) { return TextureSlotRecord(id, 0u, vec3(1, 0
 
 MaterialRecord testMaterial() {
     TextureSlotRecord none = testSlot(NONE);
-    return MaterialRecord(vec4(1), vec3(0), 0.0, 1.0, 1.0, 0.0, 1.5, vec3(0), 0.5, 0u, none, none, none, none, none);
+    return MaterialRecord(vec4(1), vec3(0), 0.0, 1.0, 1.0, 0.0, 1.5, vec3(0), 0.5, 0u, NONE, none, none, none, none, none);
 }
 
 /// The identity, or any rows.

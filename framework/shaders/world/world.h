@@ -76,6 +76,7 @@ struct MaterialRecord {
     vec3 attenuation;   // absorption per unit length inside a solid, 1/scene unit
     float alphaCutoff;
     uint flags;         // MATERIAL_*
+    uint layers;        // index in World.layers, NONE: a plain material
     TextureSlotRecord baseColorMap, metallicRoughnessMap, normalMap, emissiveMap, transmissionMap;
 };
 const uint MATERIAL_DOUBLE_SIDED = 1u;
@@ -84,6 +85,28 @@ const uint MATERIAL_BLEND = 4u;
 const uint MATERIAL_SOLID = 8u;     // refracts; otherwise transmission is thin-walled
 const uint MATERIAL_EMISSIVE = 16u;
 const uint MATERIAL_VERTEX_COLOR = 32u;
+const uint MATERIAL_UNLIT = 64u;    // its emission is its base colour: vertex colours count
+
+// What few materials have: KHR_materials_specular, _sheen, _anisotropy, _clearcoat.
+struct LayersRecord {
+    vec3 specularColor;
+    float specular;
+    vec3 sheenColor;
+    float sheenRoughness;
+    vec2 anisotropyDirection;  // cosine and sine of the rotation from the tangent towards the bitangent
+    float anisotropy;
+    float coat, coatRoughness, coatNormalScale;
+    TextureSlotRecord maps[8]; // LAYER_*
+};
+const uint LAYER_SPECULAR = 0u;         // A
+const uint LAYER_SPECULAR_COLOR = 1u;
+const uint LAYER_SHEEN_COLOR = 2u;
+const uint LAYER_SHEEN_ROUGHNESS = 3u;  // A
+const uint LAYER_ANISOTROPY = 4u;       // RG: direction in [-1, 1], B: strength
+const uint LAYER_COAT = 5u;             // R
+const uint LAYER_COAT_ROUGHNESS = 6u;   // G
+const uint LAYER_COAT_NORMAL = 7u;
+const uint LAYER_MAPS = 8u;
 
 struct TextureRecord {
     uint64_t texels;      // RGBA8, mip levels one after the other, each (max(1, w >> l)) x (max(1, h >> l))
@@ -156,6 +179,7 @@ LODESTIR_ARRAY(LevelArray, LevelRecord)
 LODESTIR_ARRAY(MeshArray, MeshRecord)
 LODESTIR_ARRAY(InstanceArray, InstanceRecord)
 LODESTIR_ARRAY(MaterialArray, MaterialRecord)
+LODESTIR_ARRAY(LayersArray, LayersRecord)
 LODESTIR_ARRAY(TextureArray, TextureRecord)
 LODESTIR_ARRAY(LightArray, LightRecord)
 LODESTIR_ARRAY(EnvironmentArray, EnvironmentTexel)
@@ -183,6 +207,7 @@ struct World {
     LODESTIR_ARRAY_OF(Vec3Array) positions;          // object space
     LODESTIR_ARRAY_OF(VertexArray) vertices;
     LODESTIR_ARRAY_OF(MaterialArray) materials;
+    LODESTIR_ARRAY_OF(LayersArray) layers;
     LODESTIR_ARRAY_OF(TextureArray) textures;
 
     // Light.
