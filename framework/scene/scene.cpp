@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads a scene and gives it what every scene needs: a camera, a light, a material.
 #include <framework/core/error.h>
+#include <framework/image/srgb.h>
 #include <framework/scene/camera.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/gltf.h>
@@ -16,11 +17,30 @@
 namespace lodestir {
 namespace {
 
+/// Mean over an emissive texture of each texel's brightest channel, linear; of large ones over some texels.
+float meanBrightness(const Texture& texture) {
+    const std::size_t texels = texture.rgba.size() / 4, step = std::max<std::size_t>(1, texels / 65536) | 1;  // odd: not a column of its own
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < texels; i += step, ++count) {
+        const std::uint8_t* texel = &texture.rgba[4 * i];
+        sum += decodeSrgb(static_cast<float>(std::max({texel[0], texel[1], texel[2]})) / 255);
+    }
+    return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
+}
+
 /// Does the scene light itself? Lights do. Emissive triangles do where their light, spread over the sphere around the scene, would make a
 /// white surface brighter than 0.03; less is a display or a pilot lamp on a model that was meant for a viewer with a light of its own.
 bool hasLight(const Scene& scene) {
     if (!scene.lights.empty()) return true;
     const Pose pose = poseAt(scene, 0);
+    std::vector<float> shares(scene.textures.size(), -1);
+    const auto shareOf = [&](const TextureSlot& map) {
+        if (map.texture == none) return 1.0f;
+        float& share = shares[map.texture];
+        if (share < 0) share = meanBrightness(scene.textures[map.texture]);
+        return share;
+    };
     double power = 0;  // over pi
     for (const Instance& instance : scene.instances) {
         const MeshLevel& level = scene.meshes[instance.mesh].levels[0];
@@ -33,8 +53,7 @@ bool hasLight(const Scene& scene) {
             if (!shines(level.materials[t])) continue;
             const glm::uvec3 v = level.triangles[t];
             const glm::vec3 normal = glm::cross(linear * (positions[v.y] - positions[v.x]), linear * (positions[v.z] - positions[v.x]));
-            const float share = material.emissiveMap.texture == none ? 1.0f : 0.25f;  // of the texture that shines, at a guess
-            power += 0.5 * glm::length(normal) * share * std::max({material.emission.r, material.emission.g, material.emission.b});
+            power += 0.5 * glm::length(normal) * shareOf(material.emissiveMap) * std::max({material.emission.r, material.emission.g, material.emission.b});
         }
     }
     const auto bounds = scene.bounds();

@@ -98,6 +98,8 @@ Bsdf bsdfAt(World w, Surface s) {
     Bsdf b = plainBsdf(s.shadingNormal, s.normal, clamp(base.rgb, 0.0, 1.0), clamp(metallic, 0.0, 1.0), clamp(transmission, 0.0, 1.0),
                        square(clamp(roughness, 0.0, 1.0)), solid && !s.frontFace ? 1.0 / ior : ior,
                        (flags & MATERIAL_BLEND) != 0u ? clamp(base.a, 0.0, 1.0) : 1.0, solid);
+    // Unlit models are made for viewers that leave out back faces: one looks into their rooms through the walls.
+    if ((flags & (MATERIAL_UNLIT | MATERIAL_DOUBLE_SIDED)) == MATERIAL_UNLIT && !s.frontFace) b.coverage = 0.0;
     if (layers != NONE) applyLayers(b, w, s, corners, values);
     return b;
 }

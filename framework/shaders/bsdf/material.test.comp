@@ -6,8 +6,8 @@
 #include "world/test_world.glsl"
 layout(local_size_x = 8) in;
 
-// 0: factors only, 1: all maps, 2: solid glass, 3: blend, 4: out of range, 5: layers' factors, 6: layers' maps.
-const uint COUNT = 7u;
+// 0: factors only, 1: all maps, 2: solid glass, 3: blend, 4: out of range, 5: layers' factors, 6: layers' maps, 7: unlit.
+const uint COUNT = 8u;
 
 void write() {
     for (uint v = 0u; v < 3u; ++v) {
@@ -46,7 +46,8 @@ void write() {
     TestLayers(testArray(TEST_LAYERS)).at[0] = layers;
     layers.maps = all;
     TestLayers(testArray(TEST_LAYERS)).at[1] = layers;
-    for (uint m = 5u; m < COUNT; ++m) {
+    r[7].flags = MATERIAL_UNLIT;
+    for (uint m = 5u; m < 7u; ++m) {
         r[m].layers = m - 5u;
         r[m].roughness = 0.5;
     }
@@ -85,7 +86,7 @@ void main() {
         } else {
             EXPECT_EQ(passed, vec3(1.0));
         }
-        if (m >= 5u) {
+        if (m == 5u || m == 6u) {
             // The map's 0.2, 0.4, 0.6, 0.8: direction (-0.6, -0.2), turned by (0.6, 0.8); coat normal (-1.2, -0.4, 0.2) before its length.
             bool mapped = m == 6u;
             float specular = mapped ? 0.4 : 0.5, strength = mapped ? 0.3 : 0.5, up = side == 0u ? 1.0 : -1.0;
@@ -102,7 +103,7 @@ void main() {
         } else {
             EXPECT_TRUE(!hasCoat(b) && !hasSheen(b) && b.alpha == b.along);
         }
-        EXPECT_NEAR(b.coverage, m == 3u ? 0.4 : 1.0, 1e-6);
+        EXPECT_NEAR(b.coverage, m == 3u ? 0.4 : m == 7u && side == 1u ? 0.0 : 1.0, 1e-6);
         if (m == 4u) {
             EXPECT_EQ(vec4(b.base, b.metallic), vec4(1, 1, 1, 0));
             EXPECT_TRUE(fresnelDielectric(1.0, b.eta) > 0.99);
