@@ -9,6 +9,7 @@
 #include <framework/app/run_command.h>
 #include <framework/app/scene_command.h>
 #include <framework/app/study_command.h>
+#include <framework/app/view_command.h>
 #include <framework/core/error.h>
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,7 @@ int runProgram(int argc, char** argv) {
     app.failure_message(CLI::FailureMessage::simple);
     std::function<int()> run;
     addRun(app, run);
+    addView(app, run);
     addCompare(app, run);
     addPasses(app, run);
     addCheck(app, run);

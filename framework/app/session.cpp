@@ -12,10 +12,7 @@
 #include <limits>
 
 namespace lodestir {
-namespace {
-
-/// "960x540"
-glm::uvec2 readSize(const std::string& text) {
+glm::uvec2 readSize(const std::string& option, const std::string& text) {
     glm::uvec2 size{0};
     const char* end = text.data() + text.size();
     const auto [x, ok] = std::from_chars(text.data(), end, size.x);
@@ -23,16 +20,14 @@ glm::uvec2 readSize(const std::string& text) {
         const auto [rest, good] = std::from_chars(x + 1, end, size.y);
         if (good == std::errc() && rest == end && size.x > 0 && size.y > 0) return size;
     }
-    throw CLI::ValidationError("--size", "\"" + text + "\" is no size; write it like 960x540");
+    throw CLI::ValidationError(option, "\"" + text + "\" is no size; write it like 960x540");
 }
-
-}  // namespace
 
 void SessionOptions::addTo(CLI::App& command) {
     command.add_option("graph", graph, "graph file")->required();
     command.add_option_function<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's");
     command.add_option_function<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames")->check(CLI::Range(1, std::numeric_limits<int>::max()));
-    command.add_option_function<std::string>("--size", [this](const std::string& v) { changes.size = readSize(v); }, "of the frame, WIDTHxHEIGHT");
+    command.add_option_function<std::string>("--size", [this](const std::string& v) { changes.size = readSize("--size", v); }, "of the frame, WIDTHxHEIGHT");
     command.add_option_function<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers")->check(checkNotEmpty);
     command.add_option("--set", changes.set, "pass.parameter=value")->take_all()->allow_extra_args(false);
     command.add_option_function<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
@@ -46,20 +41,24 @@ void SessionOptions::addTo(CLI::App& command) {
     command.add_flag("--count-steps", countSteps, "count the nodes that rays visit");
 }
 
-Session::Session(const SessionOptions& options) : libraries_(options.passes) {
+Session::Session(const SessionOptions& options, SessionParts parts)
+    : device_(std::move(parts.device)), libraries_(options.passes), scene_(std::move(parts.scene)) {
     libraries_.addBuiltIn("scene", scenePlugin());
     graph_ = std::make_unique<Graph>(buildGraph(loadDescription(options.graph, options.changes), libraries_));
+    if (parts.adjust) parts.adjust(*graph_);
     for (const std::string& name : options.dumps) dumps_.push_back(findSource(*graph_, name, {"--dump", 0, 0}));
     if (graph_->description.scene.empty()) throw Error({graph_->description.file.string(), 0, 0}, "the graph names no scene", "add \"scene\" or give --scene");
-    const auto start = std::chrono::steady_clock::now();
-    scene_ = loadScene(graph_->description.scene);
-    for (const std::string& note : scene_.notes) log::note("{}", note);
-    sceneMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    device_ = std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options.device});
+    if (!scene_ || scene_->file != graph_->description.scene) {
+        const auto start = std::chrono::steady_clock::now();
+        scene_ = std::make_shared<Scene>(loadScene(graph_->description.scene));
+        for (const std::string& note : scene_->notes) log::note("{}", note);
+        sceneMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    }
+    if (!device_) device_ = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = options.device});
     rays_ = chooseRayBody(device_->facts(), options.rays);
     log::note("device {}, {}; rays by {}", device_->facts().name, device_->reason(), options.rays.empty() ? whyRayBody(device_->facts()) : options.rays + ", as asked for");
-    runner_ = std::make_unique<Runner>(*device_, *graph_, scene_,
-                                       RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps});
+    runner_ = std::make_unique<Runner>(*device_, *graph_, *scene_,
+                                       RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice});
 }
 
 }  // namespace lodestir

@@ -4,6 +4,7 @@
 #include <framework/graph/runner.h>
 #include <framework/scene/scene.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ class App;
 }
 
 namespace lodestir {
+
+/// "960x540", given to an option. CLI::ValidationError naming the option when it is none.
+glm::uvec2 readSize(const std::string& option, const std::string& text);
 
 struct SessionOptions {
     Path graph;
@@ -27,24 +31,33 @@ struct SessionOptions {
     void addTo(CLI::App& command);
 };
 
+/// What a session may take over from another instead of making it.
+struct SessionParts {
+    std::shared_ptr<const gpu::Device> device;
+    std::shared_ptr<Scene> scene;        ///< where it is of the graph's scene file
+    std::function<void(Graph&)> adjust;  ///< sets parameters before anything is made of the graph
+    double slice = 0;                    ///< RunnerOptions::slice
+};
+
 class Session {
 public:
-    explicit Session(const SessionOptions& options);
+    explicit Session(const SessionOptions& options, SessionParts parts = {});
 
     const gpu::Device& device() const { return *device_; }
     Graph& graph() { return *graph_; }
-    const Scene& scene() const { return scene_; }
+    const Scene& scene() const { return *scene_; }
+    const std::shared_ptr<Scene>& sharedScene() const { return scene_; }
     Runner& runner() { return *runner_; }
     const std::vector<Source>& dumps() const { return dumps_; }
     RayBody rays() const { return rays_; }
     double sceneMilliseconds() const { return sceneMilliseconds_; }  ///< to read the scene
 
 private:
-    std::unique_ptr<gpu::Device> device_;  // first, because passes may hold its memory
+    std::shared_ptr<const gpu::Device> device_;  // first, because passes may hold its memory
     PluginLibraries libraries_;
     std::unique_ptr<Graph> graph_;
     std::vector<Source> dumps_;
-    Scene scene_;
+    std::shared_ptr<Scene> scene_;
     RayBody rays_ = RayBody::lane;
     std::unique_ptr<Runner> runner_;
     double sceneMilliseconds_ = 0;

@@ -108,7 +108,9 @@ std::uint32_t Commands::timestamp() {
     return nextTimestamp_++;
 }
 
-void Commands::submit() {
+void Commands::submit() { submit(VK_NULL_HANDLE, VK_NULL_HANDLE); }
+
+void Commands::submit(VkSemaphore after, VkSemaphore before) {
     barrier();  // makes the results visible to the host
     check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
     check(vkResetFences(device_->handle(), 1, &fence_), "vkResetFences");
@@ -116,6 +118,13 @@ void Commands::submit() {
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands_;
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    info.waitSemaphoreCount = after ? 1 : 0;
+    info.pWaitSemaphores = &after;
+    info.pWaitDstStageMask = &stage;
+    info.signalSemaphoreCount = before ? 1 : 0;
+    info.pSignalSemaphores = &before;
+    const auto lock = device_->lockQueue();
     check(vkQueueSubmit(device_->queue(), 1, &info, fence_), "vkQueueSubmit");
     pending_ = true;
 }

@@ -30,6 +30,7 @@ public:
     void endLabel();
     std::uint32_t timestamp();        ///< index of the written stamp (all earlier work finished); Error beyond maxTimestamps
     void submit();                    ///< ends and submits; returns at once; results are visible to the host after wait()
+    void submit(VkSemaphore after, VkSemaphore before);  ///< the same, starting when `after` is signalled and signalling `before` at the end
     void wait();                      ///< until the submission is done; Error when the device is lost
     /// Between two stamps of the last finished submission; 0 where the device has no timestamps.
     double milliseconds(std::uint32_t from, std::uint32_t to) const;

@@ -268,7 +268,10 @@ Device::~Device() {
 
 const std::vector<std::string>& Device::validationMessages() const { return messages_->texts; }
 
-void Device::waitIdle() const { check(vkDeviceWaitIdle(device_), "vkDeviceWaitIdle"); }
+void Device::waitIdle() const {
+    const auto lock = lockQueue();
+    check(vkDeviceWaitIdle(device_), "vkDeviceWaitIdle");
+}
 
 void Device::setName(VkObjectType type, std::uint64_t handle, const std::string& name) const {
     if (!setName_) return;

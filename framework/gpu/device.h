@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ LODESTIR_API std::string whyDevice(const std::vector<DeviceFacts>& devices, cons
 
 /// Vulkan 1.3 with bufferDeviceAddress, scalarBlockLayout, shaderInt64, 8/16-bit storage, descriptorIndexing,
 /// subgroup basic/vote/ballot/shuffle/arithmetic in compute, synchronization2, host query reset. The whole list: `lodestir devices`.
-/// Used by one thread at a time.
+/// Any thread may use it; one that submits, presents or waits for the queue itself holds lockQueue() meanwhile.
 class LODESTIR_API Device {
 public:
     /// Error when no device fits, naming each device and the feature it lacks.
@@ -76,6 +77,8 @@ public:
     /// Validation messages (warnings and errors) so far; each is also logged. Tests fail when it is not empty.
     const std::vector<std::string>& validationMessages() const;
     void waitIdle() const;
+    /// The queue takes work of one thread at a time: Commands hold this while they submit.
+    std::unique_lock<std::mutex> lockQueue() const { return std::unique_lock(queueMutex_); }
 
     /// Names an object, or opens and closes a region of commands, for debuggers and messages. Does nothing where no tool could see it.
     void setName(VkObjectType type, std::uint64_t handle, const std::string& name) const;
@@ -92,6 +95,7 @@ private:
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
+    mutable std::mutex queueMutex_;
     std::uint32_t queueFamily_ = 0;
     VmaAllocator allocator_ = VK_NULL_HANDLE;
     bool validating_ = false;

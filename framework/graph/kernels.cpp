@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 namespace lodestir {
 namespace {
@@ -21,6 +22,28 @@ const Kernel& Kernels::of(int node, std::string_view shader) {
     const std::pair<int, std::string> key{node, shader};
     const auto found = kernels_.find(key);
     return found != kernels_.end() ? found->second : kernels_.emplace(key, make(node, shader)).first->second;
+}
+
+int Kernels::reload(std::span<const Path> changed) {
+    std::map<std::pair<int, std::string>, Kernel, std::less<>> fresh;
+    Problems problems;
+    for (const auto& [key, kernel] : kernels_) {
+        if (!std::ranges::any_of(kernel.files, [&](const Path& file) { return std::ranges::find(changed, file) != changed.end(); })) continue;
+        try {
+            fresh.emplace(key, make(key.first, key.second));
+        } catch (const Error& error) {
+            problems.add(error);
+        }
+    }
+    problems.raise();
+    for (auto& [key, kernel] : fresh) kernels_[key] = std::move(kernel);
+    return int(fresh.size());
+}
+
+std::vector<Path> Kernels::files() const {
+    std::set<Path> files;
+    for (const auto& [key, kernel] : kernels_) files.insert(kernel.files.begin(), kernel.files.end());
+    return {files.begin(), files.end()};
 }
 
 Kernel Kernels::make(int node, std::string_view shader) {

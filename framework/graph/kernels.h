@@ -6,6 +6,7 @@
 #include <framework/graph/runner.h>
 
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +24,9 @@ public:
     Kernels(const gpu::Device& device, const Graph& graph, const RunnerOptions& options) : device_(device), graph_(graph), options_(options) {}
     /// The kernel of a node's shader; made ready when it is first asked for. Error with the compiler's messages.
     const Kernel& of(int node, std::string_view shader);
+    /// Makes anew, against the files as they are now, those that read one of `changed`; returns how many. On Error all stay as they were.
+    int reload(std::span<const Path> changed);
+    std::vector<Path> files() const;  ///< that the kernels made so far were read from, each once
     const std::vector<ShaderReport>& reports() const { return reports_; }
     /// Persistent workgroups: a few that fetch tiles from a counter, because a CPU driver spreads workgroups over its threads beforehand.
     bool persistent() const { return device_.facts().type == "cpu"; }

@@ -7,6 +7,7 @@
 #include <framework/graph/header.h>
 #include <framework/graph/kernels.h>
 #include <framework/graph/port_memory.h>
+#include <framework/graph/slices.h>
 #include <framework/graph/texels.h>
 #include <framework/graph/top_levels.h>
 #include <framework/scene/scene.h>
@@ -52,6 +53,7 @@ namespace {
 
 constexpr std::uint32_t maxDispatches = 1024;  // of a frame that fetch tiles from a counter; each has a counter of its own
 constexpr std::size_t counterStride = 64;      // bytes: one cache line each
+constexpr std::uint32_t maxPieces = 128;       // of dispatches in one submission, where a frame is cut
 
 }  // namespace
 
@@ -64,7 +66,8 @@ public:
           options_(std::move(options)),
           plan_(makePlan(graph, options_.pinned, {.allBarriers = options_.allBarriers})),
           kernels_(device, graph, options_),
-          commands_(device, std::uint32_t(2 * plan_.steps.size() + 2)),
+          commands_(device, std::uint32_t(2 * plan_.steps.size() + 2) + (options_.slice > 0 ? 2 * maxPieces : 0)),
+          slices_(options_.slice),
           size_(graph.description.size),
           counters_(device, maxDispatches * counterStride, gpu::Memory::device, "tile counters") {
         if (options_.rays == RayBody::rayQuery) topLevels_.emplace(device);
@@ -81,6 +84,7 @@ public:
     Plan plan_;
     Kernels kernels_;
     gpu::Commands commands_;
+    Slices slices_;
     glm::uvec2 size_;
     std::uint32_t frame_ = 0;
     bool historyValid_ = false, fresh_ = true;  ///< fresh: memory never cleared
@@ -99,6 +103,27 @@ public:
 
 private:
     class Recorder;
+    /// A frame in the making. It may go to the device in several submissions; the stamps are those of the one that is being recorded.
+    struct Work {
+        struct Step {
+            std::size_t report;
+            std::uint32_t from, to;
+        };
+        struct Piece {
+            Slices::Key key;
+            std::uint32_t rows, from, to;
+        };
+        FrameReport report;
+        std::vector<gpu::Buffer> staging;
+        std::uint32_t dispatches = 0;
+        std::vector<Step> steps;
+        std::vector<Piece> pieces;
+    };
+    void beginSubmission(Work& work);
+    void endSubmission(Work& work);
+    void handOver(Work& work);
+    void beginStep(Work& work);
+    void endStep(Work& work);
     bool takeParameters(std::size_t node);
     void fillBlock(std::size_t node);
     std::vector<std::uint64_t> inputVersions(std::size_t node) const;
@@ -108,8 +133,7 @@ private:
 /// What a pass sees while it executes: records into the frame's command buffer.
 class Runner::State::Recorder final : public Frame {
 public:
-    Recorder(State& state, int node, std::uint32_t& dispatches, std::vector<gpu::Buffer>& staging)
-        : s_(state), node_(node), dispatches_(dispatches), staging_(staging) {}
+    Recorder(State& state, int node, Work& work) : s_(state), node_(node), work_(work) {}
 
     std::uint32_t index() const override { return s_.frame_; }
     glm::uvec2 size() const override { return s_.size_; }
@@ -128,17 +152,15 @@ public:
         if (arguments.size() > 4) throw Error("a dispatch of " + std::string(shader) + " has more than 4 arguments");
         separate();
         const Kernel& kernel = s_.kernels_.of(node_, shader);
-        Push push{};
-        push.block = s_.nodes_[std::size_t(node_)].block.address();
-        push.extent = extent;
-        std::copy(arguments.begin(), arguments.end(), &push.arguments.x);
-        glm::uvec2 groups = groupCount(extent);
-        if (kernel.traces && s_.kernels_.persistent()) {
-            if (dispatches_ == maxDispatches) throw Error("more than " + std::to_string(maxDispatches) + " tracing dispatches in one frame");
-            push.tileCounter = s_.counters_.address() + counterStride * dispatches_++;
-            groups = {std::uint32_t(workerCount()), 1};
+        const Slices::Key key{node_, dispatched_++};
+        const bool row = extent.y == 1;
+        const std::uint32_t all = row ? extent.x : extent.y;
+        for (std::uint32_t done = 0; done < all;) {
+            const std::uint32_t rows = s_.slices_.take(key, all - done, row ? 64 : 8);
+            if (rows > 0) piece(kernel, key, extent, done, rows, arguments);
+            done += rows;
+            if (rows == 0 || s_.slices_.full() || (s_.slices_.cuts() && work_.pieces.size() == maxPieces)) s_.handOver(work_);
         }
-        s_.commands_.dispatch(kernel.pipeline, std::as_bytes(std::span(&push, 1)), groups.x, groups.y);
     }
     void fill(const Port& port, std::uint32_t word) override {
         separate();
@@ -149,9 +171,9 @@ public:
         separate();
         PortMemory& memory = made(port);
         if (bytes.size() > memory.bytes) throw Error("upload of " + std::to_string(bytes.size()) + " bytes into port \"" + std::string(port.name) + "\" of " + std::to_string(memory.bytes));
-        staging_.emplace_back(s_.device_, bytes.size(), gpu::Memory::upload, "staging");
-        std::memcpy(staging_.back().mapped(), bytes.data(), bytes.size());
-        s_.commands_.copy(staging_.back(), 0, memory.now(), 0, bytes.size());
+        work_.staging.emplace_back(s_.device_, bytes.size(), gpu::Memory::upload, "staging");
+        std::memcpy(work_.staging.back().mapped(), bytes.data(), bytes.size());
+        s_.commands_.copy(work_.staging.back(), 0, memory.now(), 0, bytes.size());
     }
     std::span<const std::byte> valueOf(const Port& port) const override {
         const auto& source = s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))];
@@ -176,6 +198,25 @@ public:
     }
 
 private:
+    /// `rows` rows of a dispatch from row `first` on (pixels, where it is one row).
+    void piece(const Kernel& kernel, Slices::Key key, glm::uvec2 extent, std::uint32_t first, std::uint32_t rows, std::initializer_list<std::uint32_t> arguments) {
+        const bool row = extent.y == 1;
+        Push push{};
+        push.block = s_.nodes_[std::size_t(node_)].block.address();
+        push.base = row ? glm::uvec2(first, 0) : glm::uvec2(0, first);
+        push.extent = extent;
+        push.rows = rows;
+        std::copy(arguments.begin(), arguments.end(), &push.arguments.x);
+        glm::uvec2 groups = groupCount(row ? glm::uvec2(rows, 1) : glm::uvec2(extent.x, rows));
+        if (kernel.traces && s_.kernels_.persistent()) {
+            if (work_.dispatches == maxDispatches) throw Error("more than " + std::to_string(maxDispatches) + " tracing dispatches in one frame");
+            push.tileCounter = s_.counters_.address() + counterStride * work_.dispatches++;
+            groups = {std::uint32_t(workerCount()), 1};
+        }
+        const std::uint32_t from = s_.slices_.cuts() ? s_.commands_.timestamp() : 0;
+        s_.commands_.dispatch(kernel.pipeline, std::as_bytes(std::span(&push, 1)), groups.x, groups.y);
+        if (s_.slices_.cuts()) work_.pieces.push_back({key, rows, from, s_.commands_.timestamp()});
+    }
     int numberOf(const Port& port) const {
         const auto& ports = s_.graph_.nodes[std::size_t(node_)].pass->ports;
         return int(std::ranges::find(ports, &port) - ports.begin());
@@ -223,8 +264,8 @@ private:
 
     State& s_;
     int node_;
-    std::uint32_t& dispatches_;
-    std::vector<gpu::Buffer>& staging_;
+    Work& work_;
+    int dispatched_ = 0;
     bool recorded_ = false;
 };
 
@@ -305,18 +346,14 @@ FrameReport Runner::State::run() {
     for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
         if (!graph_.nodes[i].off) anyChange = (changed[i] = takeParameters(i)) || anyChange;
 
-    commands_.begin();
-    commands_.fill(counters_, 0, counters_.size(), 0);
+    Work work{.report = {.frame = frame_, .passes = {}}};
+    beginSubmission(work);
     commands_.fill(ledger_, 0, ledger_.size(), 0);
     commands_.fill(faults_, 0, faults_.size(), 0);
     commands_.barrier();
     if (!historyValid_) memories_->clear(commands_, plan_, fresh_);
     fresh_ = false;
 
-    FrameReport report{.frame = frame_, .passes = {}};
-    std::vector<gpu::Buffer> staging;
-    std::uint32_t dispatches = 0;
-    std::vector<std::array<std::uint32_t, 2>> stamps;
     bool handlesChanged = false;
     for (std::size_t i = 0; i < plan_.resources.size(); ++i) memories_->at(i).previous = memories_->at(i).current;
     for (const PlanStep& step : plan_.steps) {
@@ -327,11 +364,8 @@ FrameReport Runner::State::run() {
         const std::vector<std::uint64_t> versions = inputVersions(node);
         const bool runs = !step.onChange || !state.everRan || changed[node] || versions != state.inputVersions;
         state.inputVersions = versions;
-        report.passes.push_back({.name = n.name, .ran = runs, .setup = step.onChange});
-        if (!runs) {
-            stamps.push_back({0, 0});
-            continue;
-        }
+        work.report.passes.push_back({.name = n.name, .ran = runs, .setup = step.onChange});
+        if (!runs) continue;
         std::uint64_t handlesBefore = 0, handlesAfter = 0;  // sums of versions: they only grow
         for (std::size_t i = 0; i < plan_.resources.size(); ++i) {
             PortMemory& memory = memories_->at(i);
@@ -341,8 +375,7 @@ FrameReport Runner::State::run() {
             else ++memory.version;
         }
         const bool restarts = n.pass->restartOnChange && (anyChange || handlesChanged) && historyValid_;
-        commands_.beginLabel(n.name);
-        const std::uint32_t from = commands_.timestamp();
+        beginStep(work);
         fillBlock(node);
         if (restarts) {
             for (std::size_t i = 0; i < plan_.resources.size(); ++i)
@@ -350,11 +383,10 @@ FrameReport Runner::State::run() {
                     commands_.fill(memories_->at(i).now(), 0, memories_->at(i).now().size(), 0);
             commands_.barrier();
         }
-        Recorder recorder(*this, step.node, dispatches, staging);
+        Recorder recorder(*this, step.node, work);
         n.pass->execute(recorder);
         if (topLevels_) topLevels_->record(commands_);
-        stamps.push_back({from, commands_.timestamp()});
-        commands_.endLabel();
+        endStep(work);
         state.everRan = true;
         for (std::size_t i = 0; i < plan_.resources.size(); ++i)
             if (plan_.resources[i].node == step.node && memories_->at(i).handle) handlesAfter += memories_->at(i).version;
@@ -365,20 +397,55 @@ FrameReport Runner::State::run() {
     commands_.copy(ledger_, 0, facts_, 0, ledgerBytes);
     commands_.copy(faults_, 0, facts_, ledgerBytes, graph_.nodes.size() * sizeof(FaultRecord));
     commands_.barrier();
-    commands_.submit();
-    commands_.wait();
+    endSubmission(work);
 
     for (std::size_t i = 0; i < plan_.steps.size(); ++i) {
-        PassReport& pass = report.passes[i];
+        PassReport& pass = work.report.passes[i];
         if (!pass.ran) continue;
-        pass.milliseconds = commands_.milliseconds(stamps[i][0], stamps[i][1]);
-        if (!pass.setup) report.milliseconds += pass.milliseconds;
+        if (!pass.setup) work.report.milliseconds += pass.milliseconds;
         std::memcpy(&pass.rays, facts_.mapped() + std::size_t(plan_.steps[i].node) * sizeof(RayCounts), sizeof(RayCounts));
     }
     if (options_.checkBounds) checkFaults();
     historyValid_ = true;
     ++frame_;
-    return report;
+    return std::move(work.report);
+}
+
+void Runner::State::beginSubmission(Work& work) {
+    commands_.begin();
+    commands_.fill(counters_, 0, counters_.size(), 0);
+    commands_.barrier();
+    work.dispatches = 0;
+    slices_.close();
+}
+
+/// Waits, and takes the times.
+void Runner::State::endSubmission(Work& work) {
+    commands_.submit();
+    commands_.wait();
+    for (const Work::Step& step : work.steps) work.report.passes[step.report].milliseconds += commands_.milliseconds(step.from, step.to);
+    for (const Work::Piece& piece : work.pieces) slices_.measured(piece.key, piece.rows, commands_.milliseconds(piece.from, piece.to));
+    work.steps.clear();
+    work.pieces.clear();
+}
+
+/// Lets the device have what was recorded of the current step, and goes on with the step in another submission.
+void Runner::State::handOver(Work& work) {
+    endStep(work);
+    endSubmission(work);
+    beginSubmission(work);
+    beginStep(work);
+}
+
+void Runner::State::beginStep(Work& work) {
+    commands_.beginLabel(work.report.passes.back().name);
+    const std::uint32_t from = commands_.timestamp();
+    work.steps.push_back({work.report.passes.size() - 1, from, from});
+}
+
+void Runner::State::endStep(Work& work) {
+    work.steps.back().to = commands_.timestamp();
+    commands_.endLabel();
 }
 
 void Runner::State::checkFaults() const {
@@ -407,12 +474,19 @@ void Runner::resize(glm::uvec2 size) {
     state_->allocate();
 }
 
-std::vector<std::byte> Runner::readBytes(const Source& source) const {
+int Runner::reloadShaders(std::span<const Path> changed) { return state_->kernels_.reload(changed); }
+std::vector<Path> Runner::shaderFiles() const { return state_->kernels_.files(); }
+
+const gpu::Buffer& Runner::memoryOf(const Source& source) const {
     const int resource = state_->plan_.resourceOf(source.node, source.port);
     if (resource < 0) throw Error("port " + state_->graph_.nameOf(source) + " is not part of the plan");
-    const PortMemory& memory = state_->memories_->at(std::size_t(resource));
-    std::vector<std::byte> bytes(memory.bytes);
-    gpu::readBuffer(state_->device_, memory.now(), 0, bytes);
+    return state_->memories_->at(std::size_t(resource)).now();
+}
+
+std::vector<std::byte> Runner::readBytes(const Source& source) const {
+    const gpu::Buffer& memory = memoryOf(source);
+    std::vector<std::byte> bytes(state_->memories_->at(std::size_t(state_->plan_.resourceOf(source.node, source.port))).bytes);
+    gpu::readBuffer(state_->device_, memory, 0, bytes);
     return bytes;
 }
 

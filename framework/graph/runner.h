@@ -9,6 +9,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct RunnerOptions {
     bool checkBounds = false;    ///< count accesses outside a port; Error after the frame
     bool allBarriers = false;    ///< a barrier before every step
     bool countSteps = false;     ///< count the nodes that traversal visits (costs time)
+    double slice = 0;            ///< milliseconds of work that go to the device at a time, so that others get their turn; 0: a frame is one piece
 };
 
 using RayCounts = std::array<std::uint64_t, RAYS_PURPOSES>;
@@ -67,9 +69,14 @@ public:
     void setFrame(std::uint32_t frame);  ///< the number of the next frame; history stays
     void reset();                        ///< history and states are void at the next frame
     void resize(glm::uvec2 size);        ///< reallocates; history is void
+    /// Takes over shaders from files that changed; returns how many were made anew. On Error all stay as they were.
+    int reloadShaders(std::span<const Path> changed);
+    std::vector<Path> shaderFiles() const;  ///< that shaders made ready so far were read from
 
     /// An image port's content after the last frame (pinned or shown ports only): channels and texels as its format has them.
     ImageData readImage(const Source& source) const;
+    /// Memory of a port, to be read between frames; another one may hold it after the next.
+    const gpu::Buffer& memoryOf(const Source& source) const;
     /// The bytes of an image or buffer port after the last frame.
     std::vector<std::byte> readBytes(const Source& source) const;
 

@@ -38,7 +38,7 @@ struct Push {
     uvec2 extent;          // end of the whole dispatch, pixels
     uvec4 arguments;       // of Frame::dispatch
     uint warm;             // 1: return at once; the dispatch only makes the driver compile
-    uint pad;
+    uint rows;             // of pixels from base on that this dispatch does (pixels, where the extent is one row); 0: all that are left
 };
 
 // Purposes of rays in the ledger.

@@ -29,6 +29,10 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer DriverCounte
 // Pixels come in tiles of 8x8, or in rows of 64 where the extent is one pixel high. Eight lanes in a row hold a block of 4x2 pixels.
 uvec2 driverTiles() {
     uvec2 size = push.extent - push.base;
+    if (push.rows != 0u) {
+        if (push.extent.y == 1u) size.x = min(size.x, push.rows);
+        else size.y = min(size.y, push.rows);
+    }
     return size.y == 1u ? uvec2((size.x + 63u) / 64u, 1u) : (size + 7u) / 8u;
 }
 ivec2 driverPixel(uvec2 tile, uint place) {

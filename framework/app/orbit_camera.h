@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// A camera moved by hand: each function takes the camera as it is and gives it as it becomes. No window, no GPU.
+#pragma once
+#include <framework/core/json.h>
+#include <framework/scene/scene.h>
+
+namespace lodestir {
+
+/// Around the target, radians to the right and upwards; stops just short of looking along `up`.
+LODESTIR_API CameraKey orbited(const CameraKey& camera, float right, float up);
+/// Sideways and upwards with its target, in heights of the picture at the target's distance: what is there follows the pointer.
+LODESTIR_API CameraKey panned(const CameraKey& camera, float right, float up);
+/// Towards the target or away from it: the distance times `factor`. The plane in focus moves along.
+LODESTIR_API CameraKey dollied(const CameraKey& camera, float factor);
+/// Looks the same way at the middle of `bounds` from where all of it is seen. `aspect`: width over height.
+LODESTIR_API CameraKey framed(const CameraKey& camera, const std::array<glm::vec3, 2>& bounds, float aspect);
+/// As a scene file has it: {"position": ..., "target": ..., "up": ..., "fovy": degrees, "aperture": ..., "focus": ...}.
+LODESTIR_API Json cameraJson(const CameraKey& camera);
+
+/// From places in the picture of camera `to` to places in that of camera `from`, both 0..1 to the right and downwards, homogeneous; exact for what
+/// lies in the plane through `from`'s target that faces `from`. Shows an older picture as the newer camera would roughly see it.
+LODESTIR_API glm::mat3 warpBetween(const CameraKey& from, const CameraKey& to, float aspect);
+
+}  // namespace lodestir

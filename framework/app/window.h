@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A window of the desktop and what comes in through it. The only place that asks for a display.
+#pragma once
+#include <glm/glm.hpp>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace lodestir {
+
+class Window {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    /// Error where there is no display.
+    Window(glm::ivec2 size, const std::string& title);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    GLFWwindow* handle() const { return window_; }
+    std::vector<std::string> vulkanExtensions() const;  ///< of the instance, for gpu::DeviceOptions
+    bool shouldClose() const;
+    glm::ivec2 size() const;  ///< of what is drawn, pixels; {0, 0} while it is minimised
+    void setClipboard(const std::string& text);
+
+    /// Takes what came in, waiting up to `seconds` for something. Where that is input of the user: a time that it didn't come before.
+    std::optional<Clock::time_point> takeInput(double seconds);
+    static void wake();  ///< ends the wait; from any thread
+
+private:
+    GLFWwindow* window_ = nullptr;
+    bool input_ = false;
+    Clock::time_point taken_ = Clock::now();  ///< when the last look for input ended
+};
+
+}  // namespace lodestir
