@@ -71,7 +71,7 @@ int showWindow(const ViewOptions& options) {
                 },
                 wished ? options.screenshot : Path());
             drawn = Clock::now();
-            if (input && report.wanted()) {
+            if (input && seen->graph && report.wanted()) {
                 canvas.wait();
                 report.answered(*input);
             }
