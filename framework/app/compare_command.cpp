@@ -103,8 +103,10 @@ std::map<int, Path> filesFor(const std::map<int, Path>& frames, const Path& path
     }
     files = sequenceFiles(path);
     for (const auto& [number, file] : frames)
-        if (!files.contains(number)) throw Error(Where{path.string()}, "there is no file of frame " + std::to_string(number), "TEST has " + file.string());
-    if (files.size() > frames.size()) log::warn("{}: {} frames have no test image and are left out", path.string(), files.size() - frames.size());
+        if (!files.contains(number))
+            throw Error(Where{path.string()}, "there is no file of frame " + std::to_string(number), "TEST has " + file.string());
+    if (files.size() > frames.size())
+        log::warn("{}: {} frames have no test image and are left out", path.string(), files.size() - frames.size());
     return files;
 }
 
@@ -169,7 +171,9 @@ std::string metricHelp() {
 void addCompare(CLI::App& app, std::function<int()>& run) {
     const auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command = app.add_subcommand("compare", "error metrics of two images or sequences of images");
-    command->add_option("TEST", arguments->test, "image to judge (.exr, .png, .hdr; opacity is left out), or a sequence: out/display.%d.exr")->required();
+    command
+        ->add_option("TEST", arguments->test, "image to judge (.exr, .png, .hdr; opacity is left out), or a sequence: out/display.%d.exr")
+        ->required();
     command->add_option("REFERENCE", arguments->reference, "image to judge it by, or a sequence")->required();
     std::vector<std::string> known = metricNames();
     std::ranges::copy(temporalMetricNames(), std::back_inserter(known));

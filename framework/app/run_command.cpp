@@ -119,8 +119,9 @@ void addRun(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "Renders a graph's frames and writes images, dumps and run.json.");
     options->session.addTo(*command);
-    CLI::Option* reference = command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json")->check(checkNotEmpty);
-    addMetrics(*command, options->metrics, metricNames(), "what is measured of each frame, names separated by commas: see `lodestir compare --help`")
+    CLI::Option* reference =
+        command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json")->check(checkNotEmpty);
+    addMetrics(*command, options->metrics, metricNames(), "names of what is measured, separated by commas; see `lodestir compare --help`")
         ->needs(reference)
         ->capture_default_str();
     command->add_option("--out", options->out, "folder for what is written")->capture_default_str();

@@ -34,8 +34,8 @@ Path libraryFolder() {
     return fs::weakly_canonical(found ? Path(info.dli_fname) : fs::read_symlink("/proc/self/exe", none), none).parent_path();
 }
 
-/// An installed program must not pick up the tree it was built in, though that may still exist, and the prefix may even lie inside it. Tests are
-/// in a folder of their own, and hold the framework.
+/// An installed program must not pick up the tree it was built in, though that may still exist, and the prefix may even lie inside it.
+/// Tests are in a folder of their own, and hold the framework.
 bool runsFromBuild() {
     std::error_code none;
     const Path build = fs::weakly_canonical(LODESTIR_BUILD_DIR, none), library = libraryFolder();

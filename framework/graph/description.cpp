@@ -280,6 +280,7 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     if (options.variant) applyVariant(description.source, *options.variant, file);
     description.source.remove("variants");
     applyOptions(description.source, options, problems);
+    description.setFolder = options.setFolder;
     DescriptionReader(description, problems).read();
     problems.raise();
     return description;

@@ -50,6 +50,7 @@ struct Description {
     std::string showNode, showPort;      ///< showPort is empty where the file names the pass alone
     Where showWhere;
     std::vector<std::string> variants;  ///< names, in file order
+    Path setFolder;                     ///< GraphOptions::setFolder
     Json source;                        ///< the file after the variant's merge patch and all overrides, without "variants"
 };
 
@@ -60,6 +61,7 @@ struct GraphOptions {
     std::optional<glm::uvec2> size;
     std::optional<std::uint32_t> seed;
     std::vector<std::string> set;  ///< "pass.param=value", "frame.seed=3", "frame.size=1280x720"; values are JSON, else text
+    Path setFolder;                ///< what files named by `set` are relative to; empty: the working folder
     std::optional<std::string> variant;
     std::optional<std::string> show;  ///< "pass" or "pass.port"
 };

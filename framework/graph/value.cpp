@@ -28,19 +28,20 @@ int readChoice(const Parameter& p, const Json& value, const std::string& what) {
     throw Error(value.where(), fmt::format("{} can't be \"{}\"", what, name), didYouMean(name, known));
 }
 
-/// Relative to the folder of the file that names it; what the command line names, to the current folder.
-std::string readFile(const Json& value, const std::string& what) {
+/// Relative to the folder of the file that names it, or to `folder` where no file does.
+std::string readFile(const Json& value, const std::string& what, const Path& folder) {
     const Path named = value.asString(what);
     if (named.empty()) return {};
-    const Path graph = value.where().file;
-    const Path whole = std::filesystem::absolute(std::filesystem::is_regular_file(graph) ? graph.parent_path() / named : named).lexically_normal();
+    const Path by = value.where().file;
+    const Path base = std::filesystem::is_regular_file(by) ? by.parent_path() : folder;
+    const Path whole = std::filesystem::absolute(base / named).lexically_normal();
     if (!std::filesystem::is_regular_file(whole)) throw Error(value.where(), fmt::format("{}: there is no file {}", what, whole.string()));
     return whole.string();
 }
 
 }  // namespace
 
-Value readValue(const Parameter& p, const Json& value, std::string_view owner) {
+Value readValue(const Parameter& p, const Json& value, std::string_view owner, const Path& folder) {
     const std::string what = fmt::format("pass \"{}\": \"{}\"", owner, p.name);
     if (p.isChoice()) return readChoice(p, value, what);
     if (std::holds_alternative<bool>(p.initial)) return value.asBool(what);
@@ -49,7 +50,7 @@ Value readValue(const Parameter& p, const Json& value, std::string_view owner) {
         // As a float: 0.1 written in a file is the 0.1f that a pass gives as its limit.
         return within<float>(p, value, what, static_cast<float>(value.asNumber(what)));
     }
-    return p.isFile ? readFile(value, what) : value.asString(what);
+    return p.isFile ? readFile(value, what, folder) : value.asString(what);
 }
 
 Json writeValue(const Parameter& p, const Value& value) {
@@ -74,7 +75,7 @@ bool setParameter(Graph& graph, const std::string& name, const Json& value) {
     for (Parameter* parameter : node.pass->parameters) {
         names.emplace_back(parameter->name);
         if (parameter->name != parameterName) continue;
-        Value next = readValue(*parameter, value, node.name);
+        Value next = readValue(*parameter, value, node.name, graph.description.setFolder);
         if (next == parameter->value) return false;
         parameter->value = std::move(next);
         return true;

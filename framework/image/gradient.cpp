@@ -25,7 +25,9 @@ Gray halved(const Luma& luma) {
     Gray half{(luma.width + 1) / 2, (luma.height + 1) / 2, {}};
     for (int y = 0; y < half.height; ++y)
         for (int x = 0; x < half.width; ++x)
-            half.values.push_back((image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y) + image.at(2 * x, 2 * y + 1) + image.at(2 * x + 1, 2 * y + 1)) / 4);
+            half.values.push_back((image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y) + image.at(2 * x, 2 * y + 1) +
+                                   image.at(2 * x + 1, 2 * y + 1)) /
+                                  4);
     return half;
 }
 

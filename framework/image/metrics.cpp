@@ -164,8 +164,9 @@ constexpr Metric table[] = {
      "pixels a side",
      dissimilarity, oneMinusMean, ssimMargin},
     {"gmsd",
-     "gradient magnitude similarity deviation (Xue et al. 2014), 0 for equal images: standard deviation over pixels of (2 gx gr + c) / (gx^2 + gr^2 + c), g "
-     "being Prewitt gradients of means of 2 x 2 pixels of the luma of ssim, c = 0.0026; an error that is the same everywhere has 0",
+     "gradient magnitude similarity deviation (Xue et al. 2014), 0 for equal images: standard deviation over pixels of (2 gx gr + c) / "
+     "(gx^2 + gr^2 + c), g being Prewitt gradients of means of 2 x 2 pixels of the luma of ssim, c = 0.0026; an error that is the same "
+     "everywhere has 0",
      gradientDissimilarity, deviation},
     {"ms_ssim",
      "MS-SSIM (Wang et al. 2003), 1 for equal images: as ssim, on five scales; below 176 pixels a side on those of 11 pixels and more, "

@@ -35,8 +35,8 @@ LODESTIR_API std::string metricAbout(std::string_view name);
 LODESTIR_API double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
 
 /// The same of several metrics by name; what they share is computed once.
-LODESTIR_API std::map<std::string, double> evaluateAll(const std::vector<std::string>& names, const ImageData& test, const ImageData& reference,
-                                                       const MetricOptions& options = {});
+LODESTIR_API std::map<std::string, double> evaluateAll(const std::vector<std::string>& names, const ImageData& test,
+                                                       const ImageData& reference, const MetricOptions& options = {});
 
 /// The error of each pixel (one channel), in the mask or not: what the metric is made of, before roots or logarithms. For "ssim" it is
 /// 1 - SSIM, 0 near the border; for "gmsd" 1 - similarity. Throws as evaluate() does, and where the metric is not made of pixels ("ms_ssim").

@@ -34,7 +34,8 @@ std::map<int, Path> sequenceFiles(const Path& path) {
     std::error_code failure;
     for (const auto& entry : std::filesystem::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", failure)) {
         const std::string name = entry.path().filename().string();
-        const auto number = numberIn(name, std::string_view(pattern).substr(0, mark), std::string_view(pattern).substr(mark + numberMark.size()));
+        const auto number =
+            numberIn(name, std::string_view(pattern).substr(0, mark), std::string_view(pattern).substr(mark + numberMark.size()));
         if (!number) continue;
         const auto [place, isNew] = files.emplace(*number, entry.path());
         if (!isNew) throw Error(Where{path.string()}, "has two files of frame " + std::to_string(*number), "remove one of them");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Flicker. With e_t = v(x_t) - v(r_t) and v = log2(1 + luminance), half the mean of (e_t - e_{t-1})^2 and the mean of e_t e_{t-1} add up to the mean
-// of (e_t^2 + e_{t-1}^2) / 2. Noise that is new in each frame is all in the first, an error that stays is all in the second.
+// Flicker. With e_t = v(x_t) - v(r_t) and v = log2(1 + luminance), half the mean of (e_t - e_{t-1})^2 and the mean of e_t e_{t-1} add up to
+// the mean of (e_t^2 + e_{t-1}^2) / 2. Noise that is new in each frame is all in the first, an error that stays is all in the second.
 #include <framework/core/error.h>
 #include <framework/image/temporal.h>
 
@@ -31,7 +31,8 @@ double brightness(const ImageData& image, std::size_t pixel, double exposure) {
 /// The pixel of the frame before that showed the same point; none outside the frame.
 std::optional<std::size_t> pixelBefore(const Step& step, int x, int y) {
     if (step.motion) {
-        const double fromX = std::floor(x + 0.5 + double(step.motion->at(x, y, 0))), fromY = std::floor(y + 0.5 + double(step.motion->at(x, y, 1)));
+        const double fromX = std::floor(x + 0.5 + double(step.motion->at(x, y, 0))),
+                     fromY = std::floor(y + 0.5 + double(step.motion->at(x, y, 1)));
         if (!(fromX >= 0 && fromY >= 0 && fromX < step.test.width && fromY < step.test.height)) return {};
         x = int(fromX), y = int(fromY);
     }
@@ -78,22 +79,23 @@ double temporalFlip(const Step& step, const MetricOptions& options) {
 
 constexpr Temporal table[] = {
     {"flicker_uncorrelated",
-     "the part of the error that is new in each frame: mean of (e_t - e_(t-1))^2 / 2 with e = log2(1 + Y(x)) - log2(1 + Y(r)), Y the Rec. 709 luminance "
-     "of images scaled as for relmse; white noise has its variance, an error that stays has 0",
+     "the part of the error that is new in each frame: mean of (e_t - e_(t-1))^2 / 2 with e = log2(1 + Y(x)) - log2(1 + Y(r)), Y the Rec. "
+     "709 luminance of images scaled as for relmse; white noise has its variance, an error that stays has 0",
      uncorrelated},
     {"flicker_correlated",
-     "the part of the error that stays from frame to frame (boiling, lag, bias): mean of e_t e_(t-1), e as for flicker_uncorrelated; both add up to "
-     "the mean of e^2; a constant offset has its square, white noise 0 but for chance",
+     "the part of the error that stays from frame to frame (boiling, lag, bias): mean of e_t e_(t-1), e as for flicker_uncorrelated; both "
+     "add up to the mean of e^2; a constant offset has its square, white noise 0 but for chance",
      correlated},
     {"tflip",
-     "mean of |FLIP(x_t, x_(t-1)) - FLIP(r_t, r_(t-1))|, 0 to 1: changes from frame to frame that a viewer sees and the reference hasn't, or that "
-     "lack; HDR-FLIP as for flip, pixels compared in place",
+     "mean of |FLIP(x_t, x_(t-1)) - FLIP(r_t, r_(t-1))|, 0 to 1: changes from frame to frame that a viewer sees and the reference hasn't, "
+     "or that lack; HDR-FLIP as for flip, pixels compared in place",
      temporalFlip},
 };
 
 const Temporal& metricNamed(std::string_view name) {
     const auto found = std::ranges::find(table, name, [](const Temporal& metric) { return std::string_view(metric.name); });
-    if (found == std::end(table)) throw Error("unknown metric of sequences \"" + std::string(name) + "\"", didYouMean(name, temporalMetricNames()));
+    if (found == std::end(table))
+        throw Error("unknown metric of sequences \"" + std::string(name) + "\"", didYouMean(name, temporalMetricNames()));
     return *found;
 }
 

@@ -8,7 +8,8 @@
 
 namespace lodestir {
 
-/// Of each measured frame and the centre of each pixel, from where a point is seen to where the frame before showed it, in pixels; two channels.
+/// Of each measured frame and the centre of each pixel, from where a point is seen to where the frame before showed it, in pixels; two
+/// channels.
 std::vector<ImageData> measuredMotions(const MaskStage& stage);
 
 }  // namespace lodestir

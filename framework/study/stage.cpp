@@ -99,7 +99,11 @@ Stage::~Stage() = default;
 
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<StudySetting>& knobs, std::size_t scene, std::uint32_t seed) {
     GraphOptions options{
-        .scene = std::filesystem::absolute(study_.scenes[scene].file), .size = study_.size, .seed = seed, .variant = choice.variant};
+        .scene = std::filesystem::absolute(study_.scenes[scene].file),
+        .size = study_.size,
+        .seed = seed,
+        .setFolder = std::filesystem::absolute(study_.file).parent_path(),
+        .variant = choice.variant};
     for (const auto* list : {&choice.set, &knobs})
         for (const StudySetting& setting : *list) options.set.push_back(setting.name + "=" + setting.value.dump(-1));
     try {

@@ -51,9 +51,12 @@ std::vector<std::array<float, 4>> texelsOf(const ImageData& image, glm::uvec2 si
 }  // namespace
 
 struct ImageLoader final : Pass {
-    Out<Image>                   image{this, "image", "the file's colour, linear (PNG: decoded from sRGB); its opacity, or 1, in the fourth channel", Format::rgba32f};
+    Out<Image>                   image{this, "image",
+                                       "the file's colour, linear (PNG: decoded from sRGB); its opacity, or 1, in the fourth channel",
+                                       Format::rgba32f};
     Param<std::filesystem::path> file{this, "file", "OpenEXR, PNG or Radiance .hdr"};
-    Param<bool>                  resample{this, "resample", false, "stretch an image of another size than the frame (bilinear) instead of refusing it"};
+    Param<bool>                  resample{this, "resample", false,
+                                          "stretch an image of another size than the frame (bilinear) instead of refusing it"};
     ImageLoader() { cadence = Cadence::onChange; }
 
     void execute(Frame& frame) override {
@@ -63,8 +66,8 @@ struct ImageLoader final : Pass {
         const glm::uvec2 size = frame.sizeOf(image);
         if (!resample && (read.width != int(size.x) || read.height != int(size.y)))
             throw Error(Where{path.string()},
-                        "has " + std::to_string(read.width) + " x " + std::to_string(read.height) + " pixels, the frame " + std::to_string(size.x) + " x " +
-                            std::to_string(size.y),
+                        "has " + std::to_string(read.width) + " x " + std::to_string(read.height) + " pixels, the frame " +
+                            std::to_string(size.x) + " x " + std::to_string(size.y),
                         "render with --size " + std::to_string(read.width) + "x" + std::to_string(read.height) + ", or set \"resample\"");
         const auto texels = texelsOf(read, size);
         frame.upload(image, std::as_bytes(std::span(texels)));

@@ -32,9 +32,11 @@ ImageData image(int width, int height, const std::function<double(int x, int y)>
 double pattern(int x, int y) { return 1 + 0.4 * std::sin(0.7 * x) * std::cos(0.3 * y); }
 
 /// Mean over the steps of a sequence.
-double measure(const char* metric, const std::vector<ImageData>& test, const std::vector<ImageData>& reference, const ImageData* motion = nullptr) {
+double measure(const char* metric, const std::vector<ImageData>& test, const std::vector<ImageData>& reference,
+               const ImageData* motion = nullptr) {
     double sum = 0;
-    for (std::size_t t = 1; t < test.size(); ++t) sum += evaluateStep(metric, {test[t], test[t - 1], reference[t], reference[t - 1], motion}, asIs);
+    for (std::size_t t = 1; t < test.size(); ++t)
+        sum += evaluateStep(metric, {test[t], test[t - 1], reference[t], reference[t - 1], motion}, asIs);
     return sum / double(test.size() - 1);
 }
 
@@ -50,7 +52,8 @@ TEST(Temporal, WhatIsStillHasNone) {
 
 // If this fails, a picture that is wrong but steady is said to flicker.
 TEST(Temporal, AConstantOffsetIsAllCorrelated) {
-    const std::vector<ImageData> reference(4, image(40, 30, pattern)), test(4, image(40, 30, [](int x, int y) { return pattern(x, y) + 0.25; }));
+    const std::vector<ImageData> reference(4, image(40, 30, pattern)),
+        test(4, image(40, 30, [](int x, int y) { return pattern(x, y) + 0.25; }));
     EXPECT_NEAR(measure("flicker_correlated", test, reference), 0.0625, 1e-6);
     EXPECT_NEAR(measure("flicker_uncorrelated", test, reference), 0, 1e-12);
     EXPECT_NEAR(measure("tflip", test, reference), 0, 1e-12);
@@ -102,7 +105,8 @@ TEST(Temporal, ErrorsThatMoveWithTheContentAreCorrelatedAlongTheMotion) {
     std::vector<ImageData> test, reference;
     for (int t = 0; t < frames; ++t) {  // the content moves to the left
         reference.push_back(image(width, height, [&](int x, int y) { return pattern(x + speed * t, y); }));
-        test.push_back(image(width, height, [&](int x, int y) { return pattern(x + speed * t, y) + stuck[std::size_t(y * row + x + speed * t)]; }));
+        test.push_back(
+            image(width, height, [&](int x, int y) { return pattern(x + speed * t, y) + stuck[std::size_t(y * row + x + speed * t)]; }));
     }
     ImageData motion = makeImage(width, height, 2);
     for (int y = 0; y < height; ++y)
@@ -114,7 +118,8 @@ TEST(Temporal, ErrorsThatMoveWithTheContentAreCorrelatedAlongTheMotion) {
     // The reference moves as well, and a change that both have is none.
     EXPECT_EQ(measure("tflip", reference, reference), 0);
     EXPECT_GT(measure("tflip", test, reference), 0.01);
-    EXPECT_GT(measure("tflip", std::vector<ImageData>(std::size_t(frames), reference[0]), reference), 0.01) << "a picture that hangs lacks changes";
+    EXPECT_GT(measure("tflip", std::vector<ImageData>(std::size_t(frames), reference[0]), reference), 0.01)
+        << "a picture that hangs lacks changes";
 }
 
 TEST(Temporal, OnlyTheMaskAndWhatWasInTheFrameCount) {
@@ -147,7 +152,8 @@ TEST(Temporal, RefusesWhatCannotBeCompared) {
 TEST(Sequences, AreFoundByNumber) {
     std::string name = testing::TempDir() + "lodestir_sequence_XXXXXX";
     const Path folder = ::mkdtemp(name.data());
-    for (const char* file : {"a.0.exr", "a.1.exr", "a.10.exr", "a.1.png", "a.x.exr", "a.-1.exr", "b.1.exr", "a..exr", "a.1b.exr"}) writeFile(folder / file, std::string_view("x"));
+    for (const char* file : {"a.0.exr", "a.1.exr", "a.10.exr", "a.1.png", "a.x.exr", "a.-1.exr", "b.1.exr", "a..exr", "a.1b.exr"})
+        writeFile(folder / file, std::string_view("x"));
     EXPECT_TRUE(isSequence(folder / "a.%d.exr"));
     EXPECT_FALSE(isSequence(folder / "a.0.exr"));
     EXPECT_EQ(sequenceFiles(folder / "a.%d.exr"),

@@ -44,7 +44,8 @@ protected:
 };
 
 TEST_F(ImagePasses, LoaderGivesWhatIsInTheFile) {
-    const Path color = picture("color.exr", 3), opaque = picture("opaque.exr", 4, 1), gray = picture("gray.exr", 1, 2), png = picture("shown.png", 3);
+    const Path color = picture("color.exr", 3), opaque = picture("opaque.exr", 4, 1), gray = picture("gray.exr", 1, 2),
+               png = picture("shown.png", 3);
     Frames frames(sceneFile("cornell"), size, loader(color), {"load.image"});
     for (const Path& file : {color, opaque, gray, png}) {
         frames.set("load.file", Json(file.string()));
@@ -54,7 +55,8 @@ TEST_F(ImagePasses, LoaderGivesWhatIsInTheFile) {
         for (int y = 0; y < found.height; ++y)
             for (int x = 0; x < found.width; ++x)
                 for (int c = 0; c < 4; ++c)
-                    ASSERT_EQ(found.at(x, y, c), c == 3 && expected.channels < 4 ? 1 : expected.at(x, y, std::min(c, expected.channels - 1)))
+                    ASSERT_EQ(found.at(x, y, c),
+                              c == 3 && expected.channels < 4 ? 1 : expected.at(x, y, std::min(c, expected.channels - 1)))
                         << file << " " << x << ", " << y << ", " << c;
     }
     // It looks at the file once, however often the graph runs.
@@ -87,8 +89,28 @@ TEST_F(ImagePasses, LoaderFindsFilesBesideTheGraph) {
     // What was run says which file that was, and the command line may name another.
     EXPECT_EQ(readJson(out / "run.json")["graph"]["passes"]["load"]["set"]["file"], (folder / "pictures/a.exr").string());
     const Path b = picture("b.exr", 3, 1);
-    EXPECT_EQ(firstChannels(readExr(run("other", folder / "graph.json", {"--size", "40x24", "--set", "load.file=" + b.string()}) / "load.0.exr"), 3).values,
+    EXPECT_EQ(firstChannels(
+                  readExr(run("other", folder / "graph.json", {"--size", "40x24", "--set", "load.file=" + b.string()}) / "load.0.exr"), 3)
+                  .values,
               readExr(b).values);
+}
+
+// Paths in a study start from its folder, wherever the graphs lie.
+TEST_F(ImagePasses, StudiesNameFilesToo) {
+    writeImage(folder / "studies/black.exr", makeImage(40, 24, 3));
+    write("graph.json",
+          {{"format", 1}, {"scene", sceneFile("cornell").string()}, {"passes", {{"load", {{"type", "image_loader"}}}}}, {"show", "load"}});
+    const std::string tracer = (sourceFolder / "graphs/path_tracer.json").string();
+    write("studies/black.json", {{"format", 1},
+                                 {"scenes", {sceneFile("cornell").string()}},
+                                 {"size", {40, 24}},
+                                 {"seeds", 1},
+                                 {"reference", {{"graph", tracer}, {"spp", 4}}},
+                                 {"techniques", {{"nothing", {{"graph", "../graph.json"}, {"set", {{"load.file", "black.exr"}}}}}}},
+                                 {"metrics", {"bias"}}});
+    const Output output = lodestir({"study", (folder / "studies/black.json").string(), "--out", (folder / "out").string()});
+    ASSERT_EQ(output.exitCode, 0) << output.err;
+    EXPECT_NEAR(OrderedJson::parse(readText(folder / "out/results.jsonl"))["metrics"]["bias"].get<double>(), -1, 1e-9);
 }
 
 TEST_F(ImagePasses, LoaderSaysWhatIsWrongWithAFile) {
@@ -99,17 +121,16 @@ TEST_F(ImagePasses, LoaderSaysWhatIsWrongWithAFile) {
     EXPECT_TRUE(refusal({{"file", "none.exr"}}).starts_with(at + ":")) << "with line and column";
     EXPECT_NE(refusal({{"file", "broken.exr"}}).find((folder / "broken.exr").string()), std::string::npos);
     EXPECT_NE(refusal({{"file", "text.png"}}).find("is not an image that this program reads"), std::string::npos);
-    EXPECT_NE(refusal({{"file", "whole.exr"}}, {"--size", "20x24"}).find("has 40 x 24 pixels, the frame 20 x 24; render with --size 40x24"), std::string::npos);
+    EXPECT_NE(refusal({{"file", "whole.exr"}}, {"--size", "20x24"}).find("has 40 x 24 pixels, the frame 20 x 24; render with --size 40x24"),
+              std::string::npos);
     EXPECT_NE(refusal(OrderedJson::object()).find("has no file to load"), std::string::npos);
     EXPECT_NE(refusal({{"file", "whole.exr"}}, {"--set", "load.file=gone.exr"}).find("gone.exr"), std::string::npos);
 }
 
 // The albedo against black is an error that sticks to what is seen. If this fails, flicker follows motion the wrong way.
 TEST_F(ImagePasses, FlickerFollowsTheMotionOfVisibility) {
-    const OrderedJson passes = {{"hits",
-                                 {{"type", "visibility"},
-                                  {"in", {{"worldPrev", "scene.world@prev"}}},
-                                  {"set", {{"pixelCentre", true}, {"lens", false}}}}}};
+    const OrderedJson passes = {
+        {"hits", {{"type", "visibility"}, {"in", {{"worldPrev", "scene.world@prev"}}}, {"set", {{"pixelCentre", true}, {"lens", false}}}}}};
     write("graph.json", {{"format", 1}, {"scene", sceneFile("ensemble_moving").string()}, {"passes", passes}, {"show", "hits.albedo"}});
     const Path out = run("out", folder / "graph.json", {"--size", "320x180", "--frames", "4", "--dump", "hits.motion"});
     writeExr(folder / "black.exr", makeImage(320, 180, 3));
@@ -119,7 +140,9 @@ TEST_F(ImagePasses, FlickerFollowsTheMotionOfVisibility) {
         writeExr(folder / ("against." + std::to_string(frame) + ".exr"), motion);
     }
     const auto flicker = [&](const Path& motion) {
-        Arguments arguments{"compare", (out / "hits.albedo.%d.exr").string(), (folder / "black.exr").string(), "--metrics", "flicker_uncorrelated", "--json"};
+        Arguments arguments{
+            "compare", (out / "hits.albedo.%d.exr").string(), (folder / "black.exr").string(), "--metrics", "flicker_uncorrelated",
+            "--json"};
         if (!motion.empty()) arguments.insert(arguments.end(), {"--motion", motion.string()});
         const Output output = lodestir(arguments);
         EXPECT_EQ(output.exitCode, 0) << output.err;
@@ -144,7 +167,8 @@ TEST_F(ImagePasses, ErrorsHaveTheMeansOfTheMetrics) {
             frames.set("error.top", Json(0.5));
             frames.restart(0);
             frames.run();
-            const ImageData test = firstChannels(frames.image("test.color"), 3), reference = firstChannels(frames.image("reference.color"), 3);
+            const ImageData test = firstChannels(frames.image("test.color"), 3),
+                            reference = firstChannels(frames.image("reference.color"), 3);
             const MetricOptions how{.exposure = double(float(exposure))};
             const ImageData expected = errorMap(metric, test, reference, how), found = frames.image("error.error");
             for (std::size_t i = 0; i < expected.values.size(); ++i)
@@ -159,7 +183,8 @@ TEST_F(ImagePasses, ErrorsHaveTheMeansOfTheMetrics) {
 }
 
 TEST_F(ImagePasses, ErrorsOfAnImageAgainstItsFileAreNone) {
-    const Path reference = run("first", sourceFolder / "passes/tone_map/tone_map.json", {"--size", "40x24", "--show", "trace.color"}) / "trace.color.0.exr";
+    const Path reference =
+        run("first", sourceFolder / "passes/tone_map/tone_map.json", {"--size", "40x24", "--show", "trace.color"}) / "trace.color.0.exr";
     const OrderedJson passes = {{"trace", {{"type", "path_tracer"}, {"set", {{"spp", 4}}}}},
                                 {"load", {{"type", "image_loader"}, {"set", {{"file", reference.string()}}}}},
                                 {"error", {{"type", "image_error"}, {"in", {{"test", "trace"}, {"reference", "load"}}}}}};

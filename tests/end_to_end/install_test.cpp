@@ -28,9 +28,10 @@ protected:
 
 // One test, because it takes its time: if it fails, nobody but us can use this.
 TEST_F(Install, MovesAndTakesPassesFromOutside) {
-    for (const char* file : {"lib/liblodestir.so", "lib/lodestir/passes/path_tracer/libpath_tracer.so", "lib/lodestir/passes/path_tracer/path_tracer.comp",
-                             "share/lodestir/shaders/trace/trace.glsl", "share/lodestir/graphs/restir_pt.json", "share/lodestir/scenes/rock.glb",
-                             "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/docs/files.md", "include/lodestir/framework/graph/pass.h"})
+    for (const char* file :
+         {"lib/liblodestir.so", "lib/lodestir/passes/path_tracer/libpath_tracer.so", "lib/lodestir/passes/path_tracer/path_tracer.comp",
+          "share/lodestir/shaders/trace/trace.glsl", "share/lodestir/graphs/restir_pt.json", "share/lodestir/scenes/rock.glb",
+          "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/docs/files.md", "include/lodestir/framework/graph/pass.h"})
         EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
 
     // It uses what is beside it, not the tree that it was built in.
@@ -46,7 +47,8 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
     // A pass outside of the tree, from the installed template.
     const Path mine = folder / "mine";
     const std::string build = (mine / "build").string(), graph = (mine / "glow/glow.json").string();
-    const Arguments runIt{program, "run", graph, "--passes", build + "/passes", "--size", "32x32", "--show", "new.result", "--dump", "trace.color", "--out", out};
+    const Arguments runIt{program,  "run",        graph,    "--passes",    build + "/passes", "--size", "32x32",
+                          "--show", "new.result", "--dump", "trace.color", "--out",           out};
     succeeds({(prefix / "share/lodestir/scripts/new_pass").string(), "glow", "--in", mine.string()});
     succeeds({"cmake", "-S", (mine / "glow").string(), "-B", build, "-DCMAKE_PREFIX_PATH=" + prefix.string()});
     succeeds({"cmake", "--build", build});
