@@ -31,58 +31,77 @@ std::vector<std::uint32_t> falseColors() {
 }  // namespace
 
 PicturePainter::PicturePainter(const gpu::Device& device)
-    : device_(device),
-      block_(device, sizeof(PictureBlock), gpu::Memory::upload, "picture: block"),
-      colors_(gpu::makeBuffer(device, std::span<const std::uint32_t>(falseColors()), "picture: colours")),
-      probe_(device, 16, gpu::Memory::readback, "picture: probe") {
-    const gpu::Spirv spirv = gpu::compileShader({.file = shaderFolder() / "view/picture.comp", .folders = {shaderFolder()}, .generated = {}, .defines = {}});
-    pipeline_ = gpu::Pipeline(device, spirv, {}, sizeof(VkDeviceAddress), "picture");
-    const VkDeviceAddress nothing = 0;
-    gpu::runOnce(device, [&](gpu::Commands& commands) { commands.dispatch(pipeline_, std::as_bytes(std::span(&nothing, 1)), 1); });
+    : device_(device), ramp_(gpu::makeBuffer(device, std::span<const std::uint32_t>(falseColors()), "picture: false colours")), probe_(device, 16, gpu::Memory::readback, "picture: probe") {
+    const auto make = [&](const char* name, std::uint32_t pushBytes) {
+        const gpu::Spirv spirv = gpu::compileShader({.file = shaderFolder() / "view" / name, .folders = {shaderFolder()}, .generated = {}, .defines = {}});
+        gpu::Pipeline pipeline(device, spirv, {}, pushBytes, name);
+        const std::vector<std::byte> nothing(pushBytes);  // an image without pixels: CPU drivers compile at the first dispatch
+        gpu::runOnce(device, [&](gpu::Commands& commands) { commands.dispatch(pipeline, nothing, 1); });
+        return pipeline;
+    };
+    color_ = make("color_texels.comp", sizeof(ColorTexels));
+    placement_ = make("place_picture.comp", sizeof(PlacePicture));
 }
 
 void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, const TexelLayout& layout, const Look& look, const Rectangle& place, const glm::mat3& toImage,
                              glm::ivec2 probe, bool blueFirst) {
-    const std::size_t bytes = std::size_t(place.size.x) * std::size_t(place.size.y) * 4;
-    if (target_.size() < bytes) target_ = gpu::Buffer(device_, bytes, gpu::Memory::device, "picture: viewport");
-    const glm::mat3 rows = glm::transpose(toImage);
-    PictureBlock block{};
-    block.texels = picture.texels->address();
-    block.target = target_.address();
-    block.colors = colors_.address();
-    block.probe = probe_.address();
-    block.size = picture.extent;
-    block.viewport = glm::uvec2(place.size);
-    block.row0 = rows[0];
-    block.row1 = rows[1];
-    block.row2 = rows[2];
-    block.probePixel = probe;
-    block.stride = layout.stride;
-    block.offset = layout.offset;
-    block.number = layout.number;
-    block.channels = layout.channels;
-    block.look = look.look;
-    block.pick = look.pick;
-    block.curve = look.curve;
-    block.swapped = blueFirst ? 1 : 0;
-    block.background = word(backgroundColor());
-    block.scale = std::exp2(look.exposure);
-    block.low = look.low;
-    block.high = look.high;
-    place_ = place;
-    const bool same = std::memcmp(&block, &last_, sizeof block) == 0 && picture.number == number_;
+    const std::size_t texels = std::size_t(picture.extent.x) * picture.extent.y * 4, pixels = std::size_t(place.size.x) * std::size_t(place.size.y) * 4;
+    if (colors_.size() < texels) colors_ = gpu::Buffer(device_, texels, gpu::Memory::device, "picture: colours");
+    if (target_.size() < pixels) target_ = gpu::Buffer(device_, pixels, gpu::Memory::device, "picture: viewport");
+
+    ColorTexels color{};
+    color.texels = picture.texels->address();
+    color.colors = colors_.address();
+    color.ramp = ramp_.address();
+    color.probe = probe_.address();
+    color.size = picture.extent;
+    color.probePixel = colored_.probePixel;
+    color.stride = layout.stride;
+    color.offset = layout.offset;
+    color.number = layout.number;
+    color.channels = layout.channels;
+    color.look = look.look;
+    color.pick = look.pick;
+    color.curve = look.curve;
+    color.swapped = blueFirst ? 1 : 0;
+    color.scale = std::exp2(look.exposure);
+    color.low = look.low;
+    color.high = look.high;
+    const bool recolor = picture.number != picture_.number || std::memcmp(&color, &colored_, sizeof color) != 0;
+    const bool reprobe = recolor || probe != colored_.probePixel;
+    color.probePixel = probe;
+    colored_ = color;
     picture_ = picture;
     layout_ = layout;
-    if (same) return;
-    last_ = block;
-    number_ = picture.number;
-    std::memcpy(block_.mapped(), &block, sizeof block);
-    const VkDeviceAddress address = block_.address();
-    commands.dispatch(pipeline_, std::as_bytes(std::span(&address, 1)), (block.viewport.x + 7) / 8, (block.viewport.y + 7) / 8);
+    if (reprobe) {
+        color.probeOnly = recolor ? 0 : 1;
+        const glm::uvec2 groups = recolor ? (picture.extent + 7u) / 8u : glm::uvec2(1);
+        commands.dispatch(color_, std::as_bytes(std::span(&color, 1)), groups.x, groups.y);
+    }
+
+    const glm::mat3 rows = glm::transpose(toImage);
+    PlacePicture placed{};
+    placed.colors = colors_.address();
+    placed.target = target_.address();
+    placed.size = picture.extent;
+    placed.viewport = glm::uvec2(place.size);
+    placed.row0 = rows[0];
+    placed.row1 = rows[1];
+    placed.row2 = rows[2];
+    const glm::vec3 middle = toImage * glm::vec3(0.5f * glm::vec2(place.size), 1), beside = middle + toImage[0];
+    const float step = std::abs(beside.x / beside.z - middle.x / middle.z);  // pixels of the image in one of the window
+    placed.samples = std::uint32_t(std::clamp(std::ceil(step - 0.01f), 1.0f, 4.0f));
+    placed.background = word(backgroundColor());
+    if (blueFirst) placed.background = (placed.background & 0xff00ff00u) | (placed.background & 0xff) << 16 | (placed.background >> 16 & 0xff);
+    place_ = place;
+    if (!recolor && std::memcmp(&placed, &placed_, sizeof placed) == 0) return;
+    placed_ = placed;
+    commands.barrier();
+    commands.dispatch(placement_, std::as_bytes(std::span(&placed, 1)), (placed.viewport.x + 7) / 8, (placed.viewport.y + 7) / 8);
 }
 
 void PicturePainter::paint(gpu::Commands& commands, VkImage image) const {
-    if (number_ == 0) return;
+    if (!picture_.texels) return;
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageOffset = {place_.corner.x, place_.corner.y, 0};
@@ -91,8 +110,8 @@ void PicturePainter::paint(gpu::Commands& commands, VkImage image) const {
 }
 
 std::optional<PicturePainter::Probe> PicturePainter::probe() const {
-    const glm::ivec2 p = last_.probePixel;
-    if (number_ == 0 || p.x < 0 || p.y < 0 || p.x >= int(last_.size.x) || p.y >= int(last_.size.y)) return {};
+    const glm::ivec2 p = colored_.probePixel;
+    if (!picture_.texels || p.x < 0 || p.y < 0 || p.x >= int(picture_.extent.x) || p.y >= int(picture_.extent.y)) return {};
     Probe found{.pixel = p, .bits = {}, .layout = layout_};
     std::memcpy(found.bits.data(), probe_.mapped(), sizeof found.bits);
     return found;

@@ -12,7 +12,7 @@ namespace lodestir {
 
 /// How numbers become colour.
 struct Look {
-    std::uint32_t look = LOOK_COLOR, pick = 0, curve = 0;  ///< see view/picture_block.h
+    std::uint32_t look = LOOK_COLOR, pick = 0, curve = 0;  ///< see view/picture.h
     float exposure = 0;                                    ///< stops
     float low = 0, high = 1;
 };
@@ -43,13 +43,13 @@ public:
 
 private:
     const gpu::Device& device_;
-    gpu::Pipeline pipeline_;
-    gpu::Buffer block_, colors_, target_, probe_;
+    gpu::Pipeline color_, placement_;
+    gpu::Buffer ramp_, colors_, target_, probe_;
     Rectangle place_;
     Picture picture_;  ///< keeps its memory while it is drawn
-    PictureBlock last_{};
+    ColorTexels colored_{};
+    PlacePicture placed_{};
     TexelLayout layout_;
-    std::uint64_t number_ = 0;
 };
 
 }  // namespace lodestir

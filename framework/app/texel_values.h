@@ -3,7 +3,7 @@
 #pragma once
 #include <framework/graph/port.h>
 #include <framework/graph/struct_layout.h>
-#include <framework/shaders/view/picture_block.h>
+#include <framework/shaders/view/picture.h>
 
 #include <array>
 #include <cstddef>
@@ -24,7 +24,7 @@ LODESTIR_API TexelLayout layoutOf(Format format);
 /// Of a field of a struct that is `stride` bytes; none where it is no number or vector (a matrix, an array, a struct).
 LODESTIR_API std::optional<TexelLayout> layoutOf(const StructField& field, std::size_t base, std::size_t stride);
 LODESTIR_API bool isInteger(std::uint32_t number);
-/// What the bits (those of view/picture.comp's probe) mean.
+/// What the bits (those of view/color_texels.comp's probe) mean.
 LODESTIR_API float numberFrom(std::uint32_t bits, std::uint32_t number);
 /// One number: whole numbers whole, others with five significant digits; "nan", "inf".
 LODESTIR_API std::string numberText(std::uint32_t bits, std::uint32_t number);

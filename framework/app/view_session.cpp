@@ -2,7 +2,6 @@
 #include <framework/app/view_session.h>
 
 #include <framework/app/dump.h>
-#include <framework/app/orbit_camera.h>
 #include <framework/core/log.h>
 #include <framework/gpu/commands.h>
 #include <framework/gpu/include_closure.h>
@@ -258,11 +257,8 @@ void ViewSession::describe() {
 
 void ViewSession::watchFiles() {
     std::set<Path> files{std::filesystem::absolute(options_.graph)};
-    const auto addShaders = [&](const Session& session) {
-        for (const Path& file : const_cast<Session&>(session).runner().shaderFiles()) files.insert(file);
-    };
     if (session_) {
-        addShaders(*session_);
+        for (const Path& file : session_->runner().shaderFiles()) files.insert(file);
         files.insert(session_->scene().file);
         for (const GraphNode& node : session_->graph().nodes) {
             if (!*node.plugin->shader) continue;

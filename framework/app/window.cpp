@@ -30,15 +30,14 @@ Window::Window(glm::ivec2 size, const std::string& title) {
     }
     glfwSetWindowUserPointer(window_, this);
     // Only noted here: what the input means is told by the panels, whose own callbacks are chained to these.
-    const auto note = [](GLFWwindow* w) { static_cast<Window*>(glfwGetWindowUserPointer(w))->input_ = true; };
-    static constexpr auto noted = note;
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { noted(w); });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { noted(w); });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { noted(w); });
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int, int, int, int) { noted(w); });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { noted(w); });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { noted(w); });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { noted(w); });
+    constexpr auto note = [](GLFWwindow* w, auto...) { static_cast<Window*>(glfwGetWindowUserPointer(w))->input_ = true; };
+    glfwSetCursorPosCallback(window_, note);
+    glfwSetMouseButtonCallback(window_, note);
+    glfwSetScrollCallback(window_, note);
+    glfwSetKeyCallback(window_, note);
+    glfwSetCharCallback(window_, note);
+    glfwSetFramebufferSizeCallback(window_, note);
+    glfwSetWindowRefreshCallback(window_, note);
 }
 
 Window::~Window() {

@@ -291,8 +291,8 @@ TEST_F(View, LivesThroughBrokenEdits) {
     EXPECT_TRUE(viewer.running());
 }
 
-// Frames that take a second: input must not wait for them. The limit leaves room for a machine that does other work; see docs/view.md for
-// what was measured on a quiet one.
+// Frames that take a second: input must not wait for them. On a machine that does other work both take longer, so the limits are shares of the
+// frame; docs/view.md says what was measured.
 TEST_F(View, InputDoesNotWaitForFrames) {
     Viewer viewer(*display, folder, sourceFolder / "graphs/restir_pt.json", {"--size", "480x270"});
     viewer.await("frames", rendered, 150s);
@@ -303,8 +303,9 @@ TEST_F(View, InputDoesNotWaitForFrames) {
     const OrderedJson report = viewer.await("answers", [](const OrderedJson& r) { return r["input"]["count"].get<int>() >= 20; });
     std::printf("a frame takes %.0f ms; input was answered in %.0f ms (median), %.0f (95 %%), %.0f (largest of %d)\n", report["frameMs"].get<double>(), report["input"]["median"].get<double>(),
                 report["input"]["p95"].get<double>(), report["input"]["largest"].get<double>(), report["input"]["count"].get<int>());
-    EXPECT_LT(report["input"]["median"].get<double>(), 150);
-    EXPECT_LT(report["input"]["p95"].get<double>(), 400);
+    const double frame = report["frameMs"].get<double>();
+    EXPECT_LT(report["input"]["median"].get<double>(), std::max(100.0, frame / 8));
+    EXPECT_LT(report["input"]["p95"].get<double>(), std::max(200.0, frame / 4));
 }
 
 // If this fails, where a frame is cut changes what it holds.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What view/picture.comp is told: texels and how they lie in memory, how to colour them, where they go in the window.
-#ifndef LODESTIR_PICTURE_BLOCK_H
-#define LODESTIR_PICTURE_BLOCK_H
+// What the shaders of the viewer's picture are told: how a port's numbers lie in memory and become colour, and where these go in the window.
+#ifndef LODESTIR_PICTURE_H
+#define LODESTIR_PICTURE_H
 #include "../base/shared.h"
 
 LODESTIR_SHARED_BEGIN
@@ -26,16 +26,13 @@ const uint LOOK_IDS = 4u;     // each whole number has a colour of its own
 const uint PICK_LUMINANCE = 4u;
 const uint PICK_LENGTH = 5u;  // of the vector of all components
 
-struct PictureBlock {
+// Push constants of view/color_texels.comp.
+struct ColorTexels {
     uint64_t texels;
-    uint64_t target;     // one word a pixel of the viewport, row by row
-    uint64_t colors;     // 256 words: false colours, red in the lowest byte
+    uint64_t colors;     // made: a word a texel, encoded for the screen
+    uint64_t ramp;       // 256 words: false colours, red in the lowest byte
     uint64_t probe;      // uvec4: bits of the texel at probePixel
-    uvec2 size;          // of the image, pixels
-    uvec2 viewport;      // pixels
-    vec3 row0;           // from the centre of a viewport pixel (x, y, 1) to image coordinates, homogeneous: rows of the matrix
-    vec3 row1;
-    vec3 row2;
+    uvec2 size;          // pixels
     ivec2 probePixel;
     uint stride;         // bytes from texel to texel
     uint offset;         // bytes to the first number of a texel
@@ -44,13 +41,28 @@ struct PictureBlock {
     uint look;           // LOOK_
     uint pick;           // PICK_ or a component
     uint curve;          // of LOOK_COLOR: 0 none, 1 neutral, 2 ACES, 3 Reinhard
-    uint swapped;        // 1: words hold blue in the lowest byte
-    uint background;     // word of what lies outside
+    uint swapped;        // 1: made words hold blue in the lowest byte
     float scale;         // of LOOK_COLOR, before the curve
     float low;
     float high;
+    uint probeOnly;      // 1: nothing but the probe is wanted
+};
+
+// Push constants of view/place_picture.comp.
+struct PlacePicture {
+    uint64_t colors;     // as view/color_texels.comp made them
+    uint64_t target;     // made: a word a pixel of the viewport, row by row
+    uvec2 size;          // of the image, pixels
+    uvec2 viewport;      // pixels
+    vec3 row0;           // from the centre of a viewport pixel (x, y, 1) to image coordinates, homogeneous: rows of the matrix
+    vec3 row1;
+    vec3 row2;
+    uint samples;        // squared: places averaged in a pixel of the viewport
+    uint background;     // word of what lies outside
+    uint pad;
 };
 
 LODESTIR_SHARED_END
-LODESTIR_SHARED(PictureBlock, "view/picture_block.h")
+LODESTIR_SHARED(ColorTexels, "view/picture.h")
+LODESTIR_SHARED(PlacePicture, "view/picture.h")
 #endif
