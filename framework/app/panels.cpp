@@ -170,9 +170,9 @@ void Panels::draw(const ViewStatus& status) {
 }
 
 void Panels::keys(const ViewStatus& status) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput) return;
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    const std::vector<int> down = window_.takeKeys();
+    if (ImGui::GetIO().WantTextInput) return;
+    const auto pressed = [&](int key) { return std::ranges::find(down, key) != down.end(); };
     if (pressed(GLFW_KEY_SPACE)) send([paused = !paused_](ViewSession& s) { s.pause(paused); });
     if (pressed(GLFW_KEY_N)) send([](ViewSession& s) { s.step(); });
     if (pressed(GLFW_KEY_R)) send([](ViewSession& s) { s.resetHistory(); });
@@ -579,7 +579,7 @@ void Panels::drawFacts(const ViewStatus& status) {
     fact("size", fmt::format("{} x {}   zoom {:.0f} %", graph_->size.x, graph_->size.y, 100 * viewport_.zoom()));
     fact("memory", bytesText(double(graph_->memoryBytes)) + fmt::format("   {:.0f} B a pixel", double(graph_->memoryBytes) / (double(graph_->size.x) * graph_->size.y)), "of the ports");
     fact("rays by", graph_->rays);
-    fact("device", graph_->device);
+    fact("device", graph_->device.substr(0, graph_->device.find(" (")), graph_->device);
     if (graph_->software) quietText("times are the CPU's: rays and ratios\nmean more than milliseconds");
 }
 

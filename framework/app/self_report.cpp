@@ -13,12 +13,10 @@ void SelfReport::answered(std::chrono::steady_clock::time_point since) {
     latencies_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count());
 }
 
-void SelfReport::write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area, bool last) {
+void SelfReport::write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area) {
     using OrderedJson = nlohmann::ordered_json;
     ++drawn_;
-    const auto now = std::chrono::steady_clock::now();
-    if (!wanted() || (!last && now - written_ < std::chrono::milliseconds(50))) return;
-    written_ = now;
+    if (!wanted()) return;
     std::vector<double> sorted = latencies_;
     std::ranges::sort(sorted);
     const auto at = [&](double share) { return sorted.empty() ? 0.0 : sorted[std::size_t(share * double(sorted.size() - 1))]; };

@@ -14,14 +14,13 @@ public:
     bool wanted() const { return !file_.empty(); }
     /// Input that came at the earliest at `since` was answered on the screen just now.
     void answered(std::chrono::steady_clock::time_point since);
-    /// Writes the file, at most every 50 ms unless `last`.
-    void write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area, bool last);
+    /// Writes the file, where it is wanted: after each drawing.
+    void write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area);
 
 private:
     Path file_;
     std::vector<double> latencies_;  ///< milliseconds
     std::uint64_t drawn_ = 0;
-    std::chrono::steady_clock::time_point written_{};
 };
 
 }  // namespace lodestir

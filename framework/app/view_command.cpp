@@ -75,7 +75,7 @@ int showWindow(const ViewOptions& options) {
                 canvas.wait();
                 report.answered(*input);
             }
-            report.write(*status, panels, viewport, area, last);
+            report.write(*status, panels, viewport, area);
             if (last) break;
         }
     }

@@ -34,7 +34,11 @@ Window::Window(glm::ivec2 size, const std::string& title) {
     glfwSetCursorPosCallback(window_, note);
     glfwSetMouseButtonCallback(window_, note);
     glfwSetScrollCallback(window_, note);
-    glfwSetKeyCallback(window_, note);
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+        Window& window = *static_cast<Window*>(glfwGetWindowUserPointer(w));
+        window.input_ = true;
+        if (action == GLFW_PRESS) window.keys_.push_back(key);
+    });
     glfwSetCharCallback(window_, note);
     glfwSetFramebufferSizeCallback(window_, note);
     glfwSetWindowRefreshCallback(window_, note);

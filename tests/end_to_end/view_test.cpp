@@ -70,7 +70,16 @@ public:
     void key(const std::string& key) const { display_.xdotool({"key", key}); }
     /// Clicks a widget of the last report, `across` of its width from the left.
     void click(const std::string& widget, double across = 0.5) {
-        const OrderedJson box = await("widget " + widget, [&](const OrderedJson& r) { return r["widgets"].contains(widget); })["widgets"][widget];
+        // A menu takes two drawings to find its place: the box has to be the same for a while.
+        OrderedJson box;
+        await("widget " + widget, [&](const OrderedJson& r) {
+            const OrderedJson now = r["widgets"].contains(widget) ? r["widgets"][widget] : OrderedJson();
+            const bool rests = !now.is_null() && now == box;
+            box = now;
+            if (!now.is_null() && !rests) std::this_thread::sleep_for(300ms);
+            return rests;
+        });
+        ASSERT_FALSE(box.is_null());
         point(box[0].get<double>() + across * (box[2].get<double>() - box[0].get<double>()), 0.5 * (box[1].get<double>() + box[3].get<double>()));
         display_.xdotool({"mousedown", "1"});
         std::this_thread::sleep_for(150ms);  // a press that is seen as held
