@@ -2,6 +2,7 @@
 // Buffer views compressed by meshoptimizer: checked as the extensions' texts say, then decoded with the library.
 #include <framework/scene/gltf_import.h>
 #include <framework/scene/gltf_meshopt.h>
+#include <framework/scene/meshopt_attributes.h>
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
@@ -19,7 +20,6 @@ namespace lodestir {
 namespace {
 
 constexpr std::size_t largestView = std::size_t(1) << 31;
-constexpr std::byte attributesVersion1{0xa1};
 
 /// What a view says of its compressed data.
 struct Compressed {
@@ -89,13 +89,16 @@ std::vector<std::byte> decode(const GltfFile& file, const Compressed& c, const s
     std::vector<std::byte> data(c.count * c.stride);
     if (c.count == 0) return data;
     const auto* bytes = reinterpret_cast<const unsigned char*>(c.bytes.data());
-    if (c.mode == "ATTRIBUTES" && !c.bytes.empty() && c.bytes[0] == attributesVersion1) {
-        throw file.error(pointer, "its data is in version 1 of the attribute format, which cannot be decoded here",
-                         "compress with EXT_meshopt_compression, which has version 0, or not at all (gltfpack without -c)");
+    bool failed = false;
+    if (c.mode == "ATTRIBUTES" && isMeshoptVersion1(c.bytes)) {
+        std::optional<std::vector<std::byte>> decoded = decodeMeshoptVersion1(c.bytes, c.count, c.stride);
+        failed = !decoded;
+        if (decoded) data = std::move(*decoded);
+    } else {
+        failed = c.mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(data.data(), c.count, c.stride, bytes, c.bytes.size())
+                 : c.mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(data.data(), c.count, c.stride, bytes, c.bytes.size())
+                                         : meshopt_decodeIndexSequence(data.data(), c.count, c.stride, bytes, c.bytes.size());
     }
-    const int failed = c.mode == "ATTRIBUTES"  ? meshopt_decodeVertexBuffer(data.data(), c.count, c.stride, bytes, c.bytes.size())
-                       : c.mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(data.data(), c.count, c.stride, bytes, c.bytes.size())
-                                               : meshopt_decodeIndexSequence(data.data(), c.count, c.stride, bytes, c.bytes.size());
     if (failed) throw file.error(pointer, fmt::format("its {} bytes cannot be decoded", c.bytes.size()), "is the file damaged?");
     applyFilter(c, data);
     return data;

@@ -111,6 +111,13 @@ int Glb::addMaterial(const Material& m) {
         extended["KHR_materials_volume"] = {{"thicknessFactor", tidy(m.thickness)}, {"attenuationColor", array(m.attenuation)}};
         if (std::isfinite(m.attenuationDistance)) extended["KHR_materials_volume"]["attenuationDistance"] = tidy(m.attenuationDistance);
     }
+    if (m.coat > 0) extended["KHR_materials_clearcoat"] = {{"clearcoatFactor", tidy(m.coat)}, {"clearcoatRoughnessFactor", tidy(m.coatRoughness)}};
+    if (m.sheen != glm::vec3(0))
+        extended["KHR_materials_sheen"] = {{"sheenColorFactor", array(m.sheen)}, {"sheenRoughnessFactor", tidy(m.sheenRoughness)}};
+    if (m.anisotropy > 0)
+        extended["KHR_materials_anisotropy"] = {{"anisotropyStrength", tidy(m.anisotropy)}, {"anisotropyRotation", tidy(m.anisotropyRotation)}};
+    if (m.specular != 1 || m.specularColor != glm::vec3(1))
+        extended["KHR_materials_specular"] = {{"specularFactor", tidy(m.specular)}, {"specularColorFactor", array(m.specularColor)}};
     for (const auto& [name, value] : extended.items()) use(name);
     if (!extended.empty()) material["extensions"] = extended;
     materials.push_back(material);

@@ -17,7 +17,8 @@
 
 namespace lodestir::generate {
 
-/// A metallic-roughness material with the extensions path tracers read (emissive_strength, transmission, volume, ior).
+/// A metallic-roughness material with the extensions path tracers read (emissive_strength, transmission, volume, ior, clearcoat, sheen,
+/// anisotropy, specular).
 /// Texture members are indices from Glb::addPicture, or none.
 struct Material {
     static constexpr int none = -1;
@@ -33,6 +34,12 @@ struct Material {
     float thickness = 0;       ///< metres; above 0 the mesh bounds a volume
     glm::vec3 attenuation{1};  ///< what is left of white light after `attenuationDistance`
     float attenuationDistance = std::numeric_limits<float>::infinity();
+    float coat = 0, coatRoughness = 0;
+    glm::vec3 sheen{0};
+    float sheenRoughness = 0;
+    float anisotropy = 0, anisotropyRotation = 0;  ///< strength; radians from the direction of u
+    float specular = 1;
+    glm::vec3 specularColor{1};
     bool mask = false;  ///< cut out where alpha is below one half
     bool doubleSided = false;
     int colorPicture = none;

@@ -4,12 +4,17 @@
 
 #include <framework/core/error.h>
 #include <framework/scene/gltf.h>
+#include <framework/scene/meshopt_attributes.h>
 
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <functional>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -126,6 +131,65 @@ TEST_F(Meshopt, AppliesTheFilters) {
         EXPECT_LT(glm::length(level.normals[i] - glm::vec3(0.6f, 0, 0.8f)), 0.02f);
         EXPECT_LT(glm::length(level.colors[i] * 255.0f - glm::vec4(100, 60, 20, 100)), 0.01f);
     }
+}
+
+// If this fails, models that are packed with newer tools are torn. The stream is written by hand from the extension's text: four elements of
+// 16 bytes, one channel of each kind and one whose bytes are stored in each of the ways.
+TEST_F(Meshopt, ReadsVersion1OfTheAttributes) {
+    extension = "KHR_meshopt_compression";
+    const float third = -2.5f;
+    const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v); };
+    std::vector<unsigned char> stream{0xa1};
+    const auto put = [&](std::initializer_list<unsigned> values) {
+        for (const unsigned v : values) stream.push_back(static_cast<unsigned char>(v));
+    };
+    // Controls: channel 0 (XOR) verbatim in all bytes; channel 1 (XOR) zeros; channel 2 (pairs) narrow; channel 3 (bytes) wide.
+    put({0xff, 0xaa, 0x00, 0x55});
+    // Channel 0: x goes 1 -> 1 -> 3 -> -2.5; the changes are rotated by 4 to the left when stored.
+    const std::array<std::uint32_t, 4> changes{0, 0, bits(1) ^ bits(3), bits(3) ^ bits(third)};
+    for (unsigned k = 0; k < 4; ++k) {
+        for (const std::uint32_t change : changes) put({std::rotl(change, 4) >> 8 * k & 255u});
+    }
+    // Channel 1 (y) is what the baseline says. Channel 2: pairs 300 -> 301 -> 299 -> 299 -> 599: differences 1, -2, 0, 300 folded are 2, 3, 0, 600.
+    put({0x03, 0x23, 0x0f, 0, 0, 0, 0, 0, 0, 88});             // low bytes, 4 bits: 2, 3, 0, and 600 & 255 = 88 behind them
+    put({0x01, 0x08, 0x00, 2});                                // high bytes, 1 bit each from below: 0 0 0 1, then the byte: 600 >> 8 = 2
+    put({0x00, 0x00});                                         // the second pair: all groups of width 0
+    // Channel 3: bytes; 1, 2, 4 and 8 bits wide.
+    put({0x00, 0x02, 0x00, 9});                                // 0 *9 0 0: folded 9 is -5
+    put({0x01, 0x6c, 0, 0, 0, 7});                             // 1 2 *7 0: -1, 1, -4, 0
+    put({0x02, 0x12, 0x34, 0, 0, 0, 0, 0, 0});                 // 1 2 3 4: -1, 1, -2, 2
+    put({0x03, 200, 1, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});  // 100, -1, 0, 1
+    // Baseline: x 1, y 0.25, pairs 300 and 7, bytes 10 20 30 40; then the channels' modes. 20 bytes, padded to 24 before them.
+    put({0, 0, 0, 0});
+    for (const std::uint32_t word : {bits(1), bits(0.25f), 300u | 7u << 16, 10u | 20u << 8 | 30u << 16 | 40u << 24})
+        for (unsigned k = 0; k < 4; ++k) put({word >> 8 * k & 255u});
+    put({0x42, 0x02, 0x01, 0x00});
+
+    const auto decoded = decodeMeshoptVersion1(std::as_bytes(std::span(stream)), 4, 16);
+    ASSERT_TRUE(decoded);
+    struct Element {
+        float x, y;
+        std::uint16_t a, b;
+        std::array<std::uint8_t, 4> bytes;
+    };
+    std::array<Element, 4> elements;
+    ASSERT_EQ(decoded->size(), sizeof elements);
+    std::memcpy(elements.data(), decoded->data(), sizeof elements);
+    const std::array<float, 4> x{1, 1, 3, third};
+    const std::array<std::uint16_t, 4> a{301, 299, 299, 599};
+    const std::array<std::array<std::uint8_t, 4>, 4> last{{{10, 19, 29, 140}, {5, 20, 30, 139}, {5, 16, 28, 139}, {5, 16, 30, 140}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(elements[i].x, x[i]);
+        EXPECT_EQ(elements[i].y, 0.25f);
+        EXPECT_EQ(elements[i].a, a[i]);
+        EXPECT_EQ(elements[i].b, 7);
+        EXPECT_EQ(elements[i].bytes, last[i]);
+    }
+    // Nothing is read past its end, whatever is cut off, and nothing may be left over.
+    for (std::size_t size = 0; size < stream.size(); ++size) EXPECT_FALSE(decodeMeshoptVersion1(std::as_bytes(std::span(stream).first(size)), 4, 16));
+    EXPECT_FALSE(decodeMeshoptVersion1(std::as_bytes(std::span(stream)), 20, 16));
+    stream.back() = 0x10;  // a rotation of what isn't rotated
+    EXPECT_FALSE(decodeMeshoptVersion1(std::as_bytes(std::span(stream)), 4, 16));
 }
 
 // If this fails, a damaged file is read out of bounds or refused without its place.
