@@ -121,30 +121,34 @@ bool insideSolid(Bsdf b) { return b.solid && b.eta < 1.0; }
 bool hasCoat(Bsdf b) { return b.coat > 0.0 && !insideSolid(b); }
 bool hasSheen(Bsdf b) { return maxComponent(b.sheen) > 0.0 && !insideSolid(b); }
 
-/// What coat and sheen leave of light along a direction w of either side.
+/// What coat and sheen do to light along two directions, seen from either side: x for o, y for i.
 struct LayerShares {
-    float underCoat;  // what reaches the sheen
-    float sheen;      // albedo of a white sheen
-    float base;       // what reaches the base
+    vec2 underCoat;  // what reaches the sheen
+    vec2 sheen;      // albedo of a white sheen
+    vec2 lambda;     // its shadowing
+    float leave;     // what is left of the base's light between the two: the smaller share, but of a solid only what is outside counts
 };
 
-LayerShares layerShares(Bsdf b, vec3 w) {
-    LayerShares shares = LayerShares(1.0, 0.0, 1.0);
-    if (b.coat > 0.0) shares.underCoat = 1.0 - b.coat * fresnelDielectric(min(abs(dot(b.coatNormal, w)), 1.0), COAT_ETA);
+/// The length of the loop is not known to compilers, which so keep one copy of its body. Without wi (any vector) ask for x alone.
+LayerShares layerShares(Bsdf b, vec3 wo, vec3 wi) {
+    LayerShares shares = LayerShares(vec2(1.0), vec2(0.0), vec2(0.0), 1.0);
     float sheen = maxComponent(b.sheen);
-    if (sheen > 0.0) shares.sheen = sheenAlbedo(abs(dot(b.normal, w)), b.sheenRoughness);
-    shares.base = shares.underCoat * (1.0 - sheen * min(shares.sheen, 1.0));
-    return shares;
-}
-
-/// What the layers leave of the base's light between two directions: the smaller share, but of a solid only what is outside counts.
-float layersLeave(Bsdf b, vec3 wo, vec3 wi) {
-    if (!(b.coat > 0.0 || maxComponent(b.sheen) > 0.0)) return 1.0;
     bool inside = insideSolid(b), crosses = dot(b.normal, wi) < 0.0;
-    float share = 1.0;
-    if (!inside) share = layerShares(b, wo).base;
-    if (b.solid ? inside == crosses : true) share = min(share, layerShares(b, wi).base);
-    return share;
+    for (uint k = 0u; k < (b.coat > 0.0 || sheen > 0.0 ? 2u : 0u); ++k) {
+        vec3 w = k == 0u ? wo : wi;
+        float cosine = min(abs(dot(b.normal, w)), 1.0), underCoat = 1.0, albedo = 0.0, lambda = 0.0;
+        if (b.coat > 0.0) underCoat = 1.0 - b.coat * fresnelDielectric(min(abs(dot(b.coatNormal, w)), 1.0), COAT_ETA);
+        if (sheen > 0.0) {
+            albedo = sheenAlbedo(cosine, b.sheenRoughness);
+            lambda = sheenLambda(cosine, b.sheenRoughness);
+        }
+        shares.underCoat[k] = underCoat;
+        shares.sheen[k] = albedo;
+        shares.lambda[k] = lambda;
+        bool counts = !b.solid || (k == 0u ? !inside : inside == crosses);
+        if (counts) shares.leave = min(shares.leave, underCoat * (1.0 - sheen * min(albedo, 1.0)));
+    }
+    return shares;
 }
 
 /// Chances of the lobes: `scatter` of LOBE_DIFFUSE to LOBE_COAT.
@@ -156,8 +160,8 @@ float lobeChance(LobeChances c, uint lobe) { return lobe < LOBE_THROUGH ? c.scat
 float chanceSum(LobeChances c) { return dot(c.scatter, vec4(1.0)) + c.through; }
 
 /// Chances of the lobes, from the light that each sends under the Fresnel terms of the view angle. Their sum is 1, or 0 where the surface
-/// is black. A lobe that can send light has LOBE_SHARE at least (before the sum is made 1).
-LobeChances lobeProbabilities(Bsdf b, vec3 wo) {
+/// is black. A lobe that can send light has LOBE_SHARE at least (before the sum is made 1). `layers` are those of wo and any other direction.
+LobeChances lobeProbabilities(Bsdf b, vec3 wo, LayerShares layers) {
     float cosine = clamp(dot(b.normal, wo), 0.0, 1.0), dielectric = 1.0 - b.metallic;
     float fresnel = fresnelDielectric(cosine, b.eta), base = luminance(b.base), under = 1.0 - dielectricShare(b, fresnel);
     vec4 share = vec4(dielectric * (1.0 - b.transmission) * under * base,             // diffuse
@@ -170,10 +174,9 @@ LobeChances lobeProbabilities(Bsdf b, vec3 wo) {
         possible.z = possible.z || dielectric * b.transmission * base > 0.0;
     }
     if (hasCoat(b) || hasSheen(b)) {
-        LayerShares layers = layerShares(b, wo);
-        float sheen = layers.underCoat * min(layers.sheen, 1.0) * luminance(b.sheen);
-        share.xyz = share.xyz * layers.base + vec3(sheen, 0.0, 0.0);
-        share.w = dot(b.coatNormal, wo) > 0.0 ? 1.0 - layers.underCoat : 0.0;
+        float albedo = min(layers.sheen.x, 1.0), sheen = layers.underCoat.x * albedo;
+        share.xyz = share.xyz * (layers.underCoat.x - sheen * maxComponent(b.sheen)) + vec3(sheen * luminance(b.sheen), 0.0, 0.0);
+        share.w = dot(b.coatNormal, wo) > 0.0 ? 1.0 - layers.underCoat.x : 0.0;
         possible.x = possible.x || hasSheen(b);
         possible.w = share.w > 0.0;
     }
@@ -188,6 +191,8 @@ LobeChances lobeProbabilities(Bsdf b, vec3 wo) {
     chance.through /= sum;
     return chance;
 }
+
+LobeChances lobeProbabilities(Bsdf b, vec3 wo) { return lobeProbabilities(b, wo, layerShares(b, wo, wo)); }
 
 /// Adds one lobe's f |cos| and density to the sums.
 void addLobe(inout BsdfValue value, bool isAsked, vec3 f, float pdf) {
@@ -204,8 +209,9 @@ BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
     float cosO = dot(b.normal, wo), cosI = dot(b.normal, wi), side = dot(b.geometric, wi);
     bool reflected = cosI > 0.0 && side > 0.0, transmitted = cosI < 0.0 && side < 0.0, coated = hasCoat(b) && side > 0.0;
     if (!(cosO > 0.0 && (reflected || transmitted || coated))) return value;
-    LobeChances chance = lobeProbabilities(b, wo);
-    float dielectric = 1.0 - b.metallic, scale = b.coverage * layersLeave(b, wo, wi);
+    LayerShares layers = layerShares(b, wo, wi);
+    LobeChances chance = lobeProbabilities(b, wo, layers);
+    float dielectric = 1.0 - b.metallic, scale = b.coverage * layers.leave;
 
     if (reflected && chance.scatter.x > 0.0) {
         float mean = dielectricShare(b, fresnelDielectricMean(b.eta));
@@ -213,10 +219,9 @@ BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
                         (1.0 - dielectricShare(b, fresnelDielectric(min(cosI, 1.0), b.eta))) / max(1.0 - mean, 1e-6);
         vec3 f = b.base * (scale * dielectric * (1.0 - b.transmission) * through * INV_PI * cosI);
         if (hasSheen(b)) {
-            LayerShares o = layerShares(b, wo), i = layerShares(b, wi);
             vec3 h = safeNormalize(wo + wi, b.normal);
-            float sheen = sheenValue(min(cosO, 1.0), min(cosI, 1.0), o.sheen, i.sheen, length(cross(b.normal, h)), b.sheenRoughness);
-            f += b.sheen * (b.coverage * min(o.underCoat, i.underCoat) * sheen * cosI);
+            float sheen = sheenValue(min(cosO, 1.0), min(cosI, 1.0), layers.sheen, layers.lambda, length(cross(b.normal, h)), b.sheenRoughness);
+            f += b.sheen * (b.coverage * min(layers.underCoat.x, layers.underCoat.y) * sheen * cosI);
         }
         addLobe(value, lobe == LOBE_DIFFUSE, f, chance.scatter.x * INV_PI * cosI);
     }
@@ -310,7 +315,7 @@ vec3 lobeDirection(Bsdf b, uint lobe, vec3 wo, vec2 u, out vec3 deltaValue) {
             direction = mirrored - 2.0 * dot(mirrored, b.normal) * b.normal;
         }
     }
-    deltaValue *= isCoat ? b.coverage : b.coverage * layersLeave(b, wo, direction);
+    deltaValue *= isCoat ? b.coverage : b.coverage * layerShares(b, wo, direction).leave;
     return direction;
 }
 

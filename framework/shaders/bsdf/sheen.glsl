@@ -43,8 +43,8 @@ float sheenAlbedo(float cosine, float roughness) {
     return sum * (1.0 / 120.0);
 }
 
-/// f of a white sheen, with the albedos of both directions, of which the larger one is brought down to 1.
-float sheenValue(float cosO, float cosI, float albedoO, float albedoI, float sine, float roughness) {
-    float shadowing = 1.0 + sheenLambda(cosO, roughness) + sheenLambda(cosI, roughness);
-    return sheenDistribution(sine, roughness) / max(4.0 * cosO * cosI * shadowing * max(1.0, max(albedoO, albedoI)), 1e-20);
+/// f of a white sheen, given the albedos and Lambdas of both directions. The larger albedo is brought down to 1.
+float sheenValue(float cosO, float cosI, vec2 albedos, vec2 lambdas, float sine, float roughness) {
+    float shadowing = 1.0 + lambdas.x + lambdas.y;
+    return sheenDistribution(sine, roughness) / max(4.0 * cosO * cosI * shadowing * max(1.0, max(albedos.x, albedos.y)), 1e-20);
 }
