@@ -110,7 +110,11 @@ void applyOptions(Json& source, const GraphOptions& options, Problems& problems)
             problems.add(error);
         }
     };
-    if (options.scene) source["scene"] = place(std::filesystem::absolute(*options.scene).lexically_normal().string(), "--scene");
+    attempt([&] {
+        if (!options.scene) return;
+        if (options.scene->empty()) throw Error("--scene names no file");
+        source["scene"] = place(std::filesystem::absolute(*options.scene).lexically_normal().string(), "--scene");
+    });
     if (options.show) source["show"] = place(*options.show, "--show");
     attempt([&] {
         if (options.frames) source["frame"]["count"] = place(*options.frames, "--frames");

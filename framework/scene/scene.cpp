@@ -97,6 +97,14 @@ void focusModelCamera(Scene& scene) {
     scene.camera.keys[0].focus = depth > 0 ? depth : std::max(glm::length(bounds[1] - bounds[0]), 1e-6f);
 }
 
+/// Light sampling alone finds lights without extent, and it ends at the first surface.
+void noteUnreachableLight(Scene& scene) {
+    constexpr float clearest = 0.032f;  // below it transmission is a delta lobe (ALPHA_DELTA)
+    const auto passes = [](const Material& m) { return m.alphaMode == AlphaMode::blend || (m.transmission > 0 && m.roughness < clearest); };
+    if (!scene.lights.empty() && std::any_of(scene.materials.begin(), scene.materials.end(), passes))
+        scene.notes.push_back("point, spot and directional lights do not shine through blended or clear surfaces");
+}
+
 }  // namespace
 
 std::array<glm::vec3, 2> Scene::bounds() const {
@@ -135,6 +143,7 @@ Scene loadScene(const Path& path) {
     if (scene.materials.empty()) scene.materials.push_back({.name = "default"});
     if (!says.environment && !hasLight(scene)) addSky(scene, says.exposure);
     noteLevels(scene);
+    noteUnreachableLight(scene);
     if (scene.camera.keys.empty())
         addCamera(scene);
     else if (scene.camera.node != none)

@@ -70,12 +70,12 @@ TEST(SceneFile, ChoosesMaterialVariants) {
     EXPECT_EQ(materialWith(R"(, "variant": "Beach")"), "plain");
     EXPECT_EQ(materialWith(R"(, "variant": "Street")"), "street");
     try {
-        materialWith(R"(, "variant": "Midnite")");
+        materialWith(R"(, "variant": "Midnigt")");
         FAIL() << "it was loaded";
     } catch (const Error& error) {
         const std::string text = error.what();
         EXPECT_NE(text.find("shoe.json:1:"), std::string::npos) << text;
-        EXPECT_NE(text.find("shoe.gltf has no material variant \"Midnite\""), std::string::npos) << text;
+        EXPECT_NE(text.find("shoe.gltf has no material variant \"Midnigt\""), std::string::npos) << text;
         EXPECT_NE(text.find("did you mean \"Midnight\""), std::string::npos) << text;
     }
 }

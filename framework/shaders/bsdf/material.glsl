@@ -35,7 +35,7 @@ void applyLayerMap(inout LayerValues v, uint map, vec4 value, float coatNormalSc
 }
 
 /// The layers' part of the BSDF.
-void applyLayers(inout Bsdf b, World w, Surface s, uvec3 corners, LayerValues v) {
+void applyLayers(inout Bsdf b, Surface s, LayerValues v) {
     float specular = clamp(v.specular, 0.0, 1.0);
     b.specular = specular;
     b.specularShift = specularShiftOf(b.eta, specular, max(v.specularColor, 0.0));
@@ -43,7 +43,7 @@ void applyLayers(inout Bsdf b, World w, Surface s, uvec3 corners, LayerValues v)
     b.sheenRoughness = clamp(v.sheenRoughness, SHEEN_ROUGHNESS_MIN, 1.0);
     b.coat = clamp(v.coat, 0.0, 1.0);
     b.coatAlpha = square(clamp(v.coatRoughness, 0.0, 1.0));
-    mat3 frame = smoothFrame(w, s, corners);
+    mat3 frame = s.frame;
     vec3 coatNormal = safeNormalize(frame * v.coatNormal, frame[2]);
     b.coatNormal = bendNormal(s.frontFace ? coatNormal : -coatNormal, s.normal, s.view);
     float strength = clamp(v.anisotropy.z, 0.0, 1.0);
@@ -100,7 +100,7 @@ Bsdf bsdfAt(World w, Surface s) {
                        (flags & MATERIAL_BLEND) != 0u ? clamp(base.a, 0.0, 1.0) : 1.0, solid);
     // Unlit models are made for viewers that leave out back faces: one looks into their rooms through the walls.
     if ((flags & (MATERIAL_UNLIT | MATERIAL_DOUBLE_SIDED)) == MATERIAL_UNLIT && !s.frontFace) b.coverage = 0.0;
-    if (layers != NONE) applyLayers(b, w, s, corners, values);
+    if (layers != NONE) applyLayers(b, s, values);
     return b;
 }
 

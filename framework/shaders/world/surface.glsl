@@ -18,6 +18,7 @@ struct Surface {
     uint primitive, instance, material;
     bool frontFace;      // the viewer sees the triangle's front
     vec3 view;           // unit, towards the viewer
+    mat3 frame;          // tangent, bitangent, normal without normal map, of the front side; tangents only where the material uses them
 };
 
 /// Bends the shading normal n just so far that the mirror direction of `view` is not below the surface with normal ng
@@ -31,42 +32,23 @@ vec3 bendNormal(vec3 n, vec3 ng, vec3 view) {
     return safeNormalize(view + safeNormalize(raised, ng), ng);
 }
 
-/// Tangent and bitangent of a mesh with tangents around the smooth normal n, in world space, as columns with n.
-mat3 tangentFrame(World w, uint bits[3], vec2 barycentrics, Placement placement, float mirror, vec3 n) {
+/// Tangent, bitangent and n as columns, n being the smooth normal in world space. Zeros for n's companions where the
+/// mesh has no tangents: maps then leave the normal as it is.
+mat3 tangentFrame(World w, Placement placement, float mirror, uvec3 corners, vec2 barycentrics, vec3 n) {
     vec3 weights = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics), tangent = vec3(0.0);
-    for (int i = 0; i < 3; ++i) tangent += weights[i] * unpackTangent(bits[i]).xyz;
+    uint first = w.vertices.at[corners.x].tangent;
+    for (int i = 0; i < 3; ++i) tangent += weights[i] * unpackTangent(w.vertices.at[corners[i]].tangent).xyz;
+    if (first == TANGENT_NONE) return mat3(vec3(0.0), vec3(0.0), n);
     tangent = placeVector(placement, tangent);
     tangent = safeNormalize(tangent - dot(tangent, n) * n, basisAround(n)[0]);
-    return mat3(tangent, cross(n, tangent) * (unpackTangent(bits[0]).w * mirror), n);
+    return mat3(tangent, cross(n, tangent) * (unpackTangent(first).w * mirror), n);
 }
 
-/// The normal that the material's normal map gives, in world space (glTF 2.0, section 3.9.3); n where the mesh has no tangents.
-vec3 mapNormal(World w, Surface s, Placement placement, float mirror, uvec3 corners, vec3 n) {
-    uint bits[3] = uint[](w.vertices.at[corners.x].tangent, w.vertices.at[corners.y].tangent, w.vertices.at[corners.z].tangent);
-    if (bits[0] == TANGENT_NONE) return n;
-    mat3 frame = tangentFrame(w, bits, s.barycentrics, placement, mirror, n);
+/// The normal that the material's normal map gives in the frame, in world space (glTF 2.0, section 3.9.3).
+vec3 mapNormal(World w, Surface s, uvec3 corners, mat3 frame) {
     vec3 m = readMap(w, w.materials.at[s.material].normalMap, s.uv, corners, s.barycentrics).xyz * 2.0 - 1.0;
     m.xy *= w.materials.at[s.material].normalScale;
-    return safeNormalize(frame * m, n);
-}
-
-/// The interpolated normal in world space, on the side of `front`, the triangle's unit normal by its winding.
-vec3 smoothNormal(World w, uvec3 corners, vec2 barycentrics, Placement placement, float mirror, vec3 front) {
-    vec3 weights = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics), sum = vec3(0.0);
-    for (int i = 0; i < 3; ++i) sum += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
-    vec3 n = safeNormalize(placeNormal(placement, sum) * mirror, front);
-    // Files with normals that point inwards are common enough: only the normal's line is trusted, the side comes from the winding.
-    return dot(n, front) < 0.0 ? -n : n;
-}
-
-/// The frame of s without its normal map: columns tangent, bitangent, smooth normal, on the triangle's front side whatever the view. Any
-/// tangent where the mesh has none.
-mat3 smoothFrame(World w, Surface s, uvec3 corners) {
-    Placement placement = placementOf(w, s.instance);
-    float mirror = placementSign(placement);
-    vec3 n = smoothNormal(w, corners, s.barycentrics, placement, mirror, s.frontFace ? s.normal : -s.normal);
-    uint bits[3] = uint[](w.vertices.at[corners.x].tangent, w.vertices.at[corners.y].tangent, w.vertices.at[corners.z].tangent);
-    return bits[0] == TANGENT_NONE ? basisAround(n) : tangentFrame(w, bits, s.barycentrics, placement, mirror, n);
+    return safeNormalize(frame * m, frame[2]);
 }
 
 /// A camera hit as a ray gave it, but for its distance.
@@ -94,8 +76,15 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     s.frontFace = dot(front, view) >= 0.0;
     s.normal = s.frontFace ? front : -front;
 
-    vec3 n = smoothNormal(w, corners, hit.barycentrics, placement, mirror, front);
-    if (w.materials.at[s.material].normalMap.texture != NONE) n = mapNormal(w, s, placement, mirror, corners, n);
+    vec3 weights = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics), smoothNormal = vec3(0.0);
+    for (int i = 0; i < 3; ++i) smoothNormal += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
+    vec3 n = safeNormalize(placeNormal(placement, smoothNormal) * mirror, front);
+    // Files with normals that point inwards are common enough: only the normal's line is trusted, the side comes from the winding.
+    n = dot(n, front) < 0.0 ? -n : n;
+    s.frame = mat3(vec3(0.0), vec3(0.0), n);
+    bool mapped = w.materials.at[s.material].normalMap.texture != NONE;
+    if (mapped || w.materials.at[s.material].layers != NONE) s.frame = tangentFrame(w, placement, mirror, corners, hit.barycentrics, n);
+    if (mapped) n = mapNormal(w, s, corners, s.frame);
     s.shadingNormal = bendNormal(s.frontFace ? n : -n, s.normal, view);
     return s;
 }
