@@ -12,6 +12,9 @@ struct VariantChoice {
     Where where;
 };
 
+/// Nodes of a scene, each instance being one; a small file can ask for any number by instancing what instances.
+inline constexpr std::size_t maxNodes = std::size_t(1) << 22;
+
 /// Appends a model: its nodes under `parentNode` (`none`: as roots), meshes, materials, textures, lights, animation, and its first
 /// perspective camera when the scene has no camera yet (keys empty). Skins and morph targets deform their meshes. Extensions:
 /// KHR_lights_punctual, KHR_materials_emissive_strength, _ior, _transmission, _volume, _specular, _sheen, _anisotropy, _clearcoat, _unlit,

@@ -206,13 +206,14 @@ void forbidFiles(tinygltf::TinyGLTF& parser) {
     });
 }
 
-/// tinygltf refuses a whole file for whole numbers written as 4.0, and for two things that are harmless until they are used: indices without
-/// data, and accessors of a type that it doesn't know. It is shown others in their place, which are taken out of the model afterwards.
+/// tinygltf refuses a whole file for whole numbers written as 4.0, and for two things that are harmless until they are used: indices
+/// without data, and accessors of a type that it doesn't know. It is shown others in their place, which are taken out of the model afterwards.
 class Harmless {
 public:
     explicit Harmless(nlohmann::ordered_json& structure) {
         shortenNumbers(structure);
         if (!structure.contains("accessors") || !structure["accessors"].is_array()) return;
+        const std::size_t views = structure.contains("bufferViews") ? structure["bufferViews"].size() : 0;
         auto& accessors = structure["accessors"];
         static const std::set<std::string> known{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
         for (std::size_t i = 0; i < accessors.size(); ++i) {
@@ -223,7 +224,7 @@ public:
         }
         for (const std::size_t i : indicesOf(structure, accessors.size())) {
             if (!accessors[i].is_object() || accessors[i].contains("bufferView")) continue;
-            accessors[i]["bufferView"] = structure["bufferViews"].size();
+            accessors[i]["bufferView"] = views;
             bare_.push_back(i);
         }
         if (!bare_.empty()) structure["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});

@@ -56,6 +56,11 @@ private:
             import_.note("primitives without positions are left out");
             return false;
         }
+        const Accessor positions(import_.file, source_.attributes.at("POSITION"), pointer_ + "/attributes/POSITION");
+        if (source_.targets.empty() && !positions.hasData()) {  // all vertices would be in one place
+            import_.note("primitives without positions are left out");
+            return false;
+        }
         return true;
     }
 

@@ -2,6 +2,7 @@
 // Nodes of a glTF model.
 #include <framework/scene/accessor.h>
 #include <framework/scene/animation.h>
+#include <framework/scene/gltf.h>
 #include <framework/scene/gltf_hierarchy.h>
 #include <framework/scene/gltf_mesh.h>
 #include <framework/scene/gltf_node.h>
@@ -16,12 +17,18 @@
 namespace lodestir {
 namespace {
 
+float finite(const GltfFile& file, double value, const std::string& pointer) {
+    const auto result = static_cast<float>(value);
+    if (!std::isfinite(result)) throw file.error(pointer, fmt::format("{} is too large a number", value));
+    return result;
+}
+
 template <class V> V vectorFrom(const GltfFile& file, const std::vector<double>& values, V otherwise, const std::string& pointer) {
     if (values.empty()) return otherwise;
     if (values.size() != static_cast<std::size_t>(V::length()))
         throw file.error(pointer, fmt::format("expected {} numbers, got {}", V::length(), values.size()));
     V result;
-    for (int i = 0; i < V::length(); ++i) result[i] = static_cast<float>(values[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < V::length(); ++i) result[i] = finite(file, values[static_cast<std::size_t>(i)], pointer);
     return result;
 }
 
@@ -34,16 +41,17 @@ Node nodeFrom(const GltfFile& file, int index) {
         if (source.matrix.size() != 16)
             throw file.error(pointer + "/matrix", fmt::format("expected 16 numbers, got {}", source.matrix.size()));
         glm::mat4 matrix;
-        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = static_cast<float>(source.matrix[static_cast<std::size_t>(i)]);
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = finite(file, source.matrix[static_cast<std::size_t>(i)], pointer + "/matrix");
         node.matrix = matrix;
         return node;
     }
     node.translation = vectorFrom(file, source.translation, glm::vec3(0), pointer + "/translation");
     node.scale = vectorFrom(file, source.scale, glm::vec3(1), pointer + "/scale");
     const glm::vec4 q = vectorFrom(file, source.rotation, glm::vec4(0, 0, 0, 1), pointer + "/rotation");
-    const float length = glm::length(q);
-    if (!(length > 0)) throw file.error(pointer + "/rotation", "a rotation cannot be a zero quaternion");
-    node.rotation = glm::quat(q.w / length, q.x / length, q.y / length, q.z / length);
+    const glm::dvec4 wide(q);  // the square of a large float is none
+    if (!(glm::length(wide) > 0)) throw file.error(pointer + "/rotation", "a rotation cannot be a zero quaternion");
+    const glm::vec4 unit(wide / glm::length(wide));
+    node.rotation = glm::quat(unit.w, unit.x, unit.y, unit.z);
     return node;
 }
 
@@ -99,6 +107,8 @@ private:
             return accessor.floats();
         };
         const std::vector<float> translations = values("TRANSLATION", 3), rotations = values("ROTATION", 4), scales = values("SCALE", 3);
+        if (import_.scene.nodes.size() + count > maxNodes)
+            throw import_.file.error(pointer, fmt::format("with {} instances more the scene has more than {} nodes", count, maxNodes));
         for (std::size_t i = 0; i < count; ++i) {
             Node child;
             child.name = fmt::format("{} {}", name, i);

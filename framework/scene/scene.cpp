@@ -13,6 +13,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace lodestir {
 namespace {
@@ -64,12 +65,14 @@ bool hasLight(const Scene& scene) {
 void noteLevels(Scene& scene) {
     if (scene.lod.mode != LodMode::finest && scene.lod.mode != LodMode::schedule)
         scene.notes.push_back("levels of detail: " + describe(scene.lod));
+    std::set<std::string> said;  // once for all instances of a name
     for (const LodSwitch& s : scene.lod.schedule) {
         if (s.instance == none || scene.lod.mode != LodMode::schedule) continue;
         const std::size_t levels = scene.meshes[scene.instances[s.instance].mesh].levels.size();
-        if (std::size_t(s.level) >= levels)
-            scene.notes.push_back(fmt::format("the schedule asks for level {} of \"{}\" at frame {}, which has {}: its coarsest is shown", s.level,
-                                              scene.instances[s.instance].name, s.frame, levels));
+        if (std::size_t(s.level) < levels) continue;
+        const std::string note = fmt::format("the schedule asks for level {} of \"{}\" at frame {}, which has {}: its coarsest is shown",
+                                             s.level, scene.instances[s.instance].name, s.frame, levels);
+        if (said.insert(note).second) scene.notes.push_back(note);
     }
 }
 
@@ -110,14 +113,23 @@ void noteUnreachableLight(Scene& scene) {
 std::array<glm::vec3, 2> Scene::bounds() const {
     std::array<glm::vec3, 2> result{glm::vec3(1e30f), glm::vec3(-1e30f)};
     const Pose pose = poseAt(*this, 0);
+    const auto add = [](std::array<glm::vec3, 2>& box, glm::vec3 point) { box = {glm::min(box[0], point), glm::max(box[1], point)}; };
+    std::vector<std::array<glm::vec3, 2>> boxes(meshes.size(), result);
+    std::vector<std::vector<glm::vec3>> posed(meshes.size());  // of what deforms
+    const auto positionsOf = [&](std::size_t m) { return std::span<const glm::vec3>(meshes[m].deforms() ? posed[m] : meshes[m].levels[0].positions); };
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        if (meshes[m].deforms()) posed[m] = deform(*this, m, 0, pose).positions;
+        for (const glm::vec3& position : positionsOf(m)) add(boxes[m], position);
+    }
     for (const Instance& instance : instances) {
-        const glm::mat4 toWorld = instanceMatrix(instance, pose.nodes);
-        const bool moves = meshes[instance.mesh].deforms();
-        for (const glm::vec3& position : moves ? deform(*this, instance.mesh, 0, pose).positions : meshes[instance.mesh].levels[0].positions) {
-            const glm::vec3 p(toWorld * glm::vec4(position, 1));
-            result[0] = glm::min(result[0], p);
-            result[1] = glm::max(result[1], p);
-        }
+        const glm::mat4 matrix = instanceMatrix(instance, pose.nodes);
+        const auto& box = boxes[instance.mesh];
+        // Of a thousand trees only those at the edge of the wood count: where the whole box lies inside, so do the vertices.
+        std::array<glm::vec3, 2> around{glm::vec3(1e30f), glm::vec3(-1e30f)};
+        for (unsigned corner = 0; corner < 8; ++corner)
+            add(around, glm::vec3(matrix * glm::vec4(box[corner & 1].x, box[corner >> 1 & 1].y, box[corner >> 2].z, 1)));
+        if (glm::all(glm::lessThanEqual(result[0], around[0])) && glm::all(glm::greaterThanEqual(result[1], around[1]))) continue;
+        for (const glm::vec3& position : positionsOf(instance.mesh)) add(result, glm::vec3(matrix * glm::vec4(position, 1)));
     }
     return result;
 }

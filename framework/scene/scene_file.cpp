@@ -14,6 +14,8 @@
 namespace lodestir {
 namespace {
 
+constexpr std::size_t maxSwitches = std::size_t(1) << 20;
+
 /// How long the lists of a scene were at a moment.
 struct Mark {
     std::size_t nodes, instances, lights, animation;
@@ -131,7 +133,13 @@ private:
 
     void placeModel(Model& model, std::uint32_t parent) {
         if (model.path.empty()) return;
-        if (model.loaded) return repeatModel(scene_, model.begin, model.end, parent);
+        if (model.loaded) {
+            const std::size_t more = model.end.nodes - model.begin.nodes;
+            if (scene_.nodes.size() + more <= maxNodes) return repeatModel(scene_, model.begin, model.end, parent);
+            if (!isFull_) problems_.add(model.where, fmt::format("with all its instances the scene has more than {} nodes", maxNodes));
+            isFull_ = true;
+            return;
+        }
         model.loaded = true;
         model.begin = markOf(scene_);
         try {
@@ -176,9 +184,9 @@ private:
         try {
             if (quaternion) {
                 const std::vector<double> q = numbersOf(*quaternion, "\"rotation\"", 4);
-                const glm::quat rotation(glm::dquat(q[3], q[0], q[1], q[2]));
+                const glm::dquat rotation(q[3], q[0], q[1], q[2]);
                 if (!(glm::length(rotation) > 0)) throw Error(quaternion->where(), "a rotation cannot be a zero quaternion");
-                node.rotation = glm::normalize(rotation);
+                node.rotation = glm::quat(glm::normalize(rotation));  // as floats only now: the square of a large one is none
             } else if (degrees) {  // about X first, then Y, then Z
                 const std::vector<double> angles = numbersOf(*degrees, "\"rotationDegrees\"", 3);
                 node.rotation = glm::angleAxis(glm::radians(float(angles[2])), glm::vec3(0, 0, 1)) *
@@ -244,7 +252,15 @@ private:
             if (!instance)
                 scene_.lod.schedule.push_back(change);
             else if (problems_.empty())
-                addSwitches(change, name, *instance);  // else names would be missed only because their model failed
+                trySwitches(change, name, *instance);  // else names would be missed only because their model failed
+        }
+    }
+
+    void trySwitches(const LodSwitch& change, const std::string& name, const Json& place) {
+        try {
+            addSwitches(change, name, place);
+        } catch (const Error& error) {
+            problems_.add(error);
         }
     }
 
@@ -254,6 +270,10 @@ private:
             const std::size_t before = scene_.lod.schedule.size();
             for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
                 if (!isMeant(scene_.instances[i])) continue;
+                if (scene_.lod.schedule.size() == maxSwitches)
+                    throw Error(place.where(),
+                                fmt::format("the schedule has more than {} switches, one for each instance of a name", maxSwitches),
+                                "leave \"instance\" out where all are meant");
                 change.instance = static_cast<std::uint32_t>(i);
                 scene_.lod.schedule.push_back(change);
             }
@@ -276,6 +296,7 @@ private:
     Scene scene_;
     Problems problems_;
     std::vector<Model> models_;
+    bool isFull_ = false;  ///< of nodes: said once
 };
 
 }  // namespace

@@ -26,9 +26,10 @@ glm::quat rotationTo(glm::vec3 direction) {
 void unitVector(Fields& fields, const char* key, glm::vec3& value) {
     glm::vec3 read = value;
     fields.vector(key, read);
-    const float length = glm::length(read);
+    const glm::dvec3 wide(read);  // the square of a large float is none
+    const double length = glm::length(wide);
     if (length > 0)
-        value = read / length;
+        value = glm::vec3(wide / length);
     else
         fields.problem(fields.find(key)->where(), fmt::format("\"{}\" of {} is zero and has no direction", key, fields.what()));
 }

@@ -567,6 +567,12 @@ TEST(Gltf, RefusesWhatWouldBeReadOutOfBounds) {
              m.json["materials"][0]["emissiveTexture"]["index"] = 0;
          },
          "claims 16000x16000 texels, more than its 17 bytes can hold"},
+        {"translation beyond all floats",
+         [](GltfModel& m) {
+             m.addTriangle();
+             m.json["nodes"][0]["translation"] = {0, 1e300, 0};
+         },
+         "/nodes/0/translation: 1e+300 is too large a number"},
         {"instances without data",
          [](GltfModel& m) {
              m.addTriangle();
@@ -595,6 +601,26 @@ TEST(Gltf, RefusesWhatWouldBeReadOutOfBounds) {
         damage.apply(model);
         EXPECT_NE(refusal(model).find(damage.expected), std::string::npos) << damage.what << " gave: " << refusal(model);
     }
+}
+
+// If this fails, files are refused for something that nobody uses or that means nothing; the official validator accepts all of these.
+TEST(Gltf, ForgivesWhatIsHarmless) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["accessors"][0]["count"] = 3.0;
+    model.json["accessors"].push_back({{"componentType", 5126}, {"count", 2}, {"type", "VEC9"}});
+    model.json["accessors"].push_back({{"componentType", 5126}, {"count", 1 << 20}, {"type", "VEC3"}});
+    model.json["accessors"].push_back({{"componentType", 5123}, {"count", 3}, {"type", "SCALAR"}});
+    model.addMesh({{"attributes", {{"POSITION", 2}}}});                  // all in one place
+    model.addMesh({{"attributes", {{"POSITION", 0}}}, {"indices", 3}});  // all of one vertex
+    const Scene scene = load(model);
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    EXPECT_EQ(scene.meshes[0].levels[0].triangles.size(), 1u);
+
+    GltfModel user;
+    user.json["accessors"].push_back({{"componentType", 5126}, {"count", 2}, {"type", "VEC9"}});
+    user.addMesh({{"attributes", {{"POSITION", 0}}}});
+    EXPECT_NE(refusal(user).find("/accessors/0/type: elements of this type cannot be used here"), std::string::npos) << refusal(user);
 }
 
 // If this fails, people mend one mistake at a time and do not learn where it is.

@@ -80,6 +80,16 @@ TEST(SceneFile, ChoosesMaterialVariants) {
     }
 }
 
+// If this fails, a sun from a direction of large numbers makes a sky of NaN, and a rotation by such numbers makes things vanish.
+TEST(SceneFile, HugeNumbersStillHaveADirection) {
+    const Scene scene = load(R"({"format": 1, "models": {"leaf": {"file": "triangle.gltf"}},
+        "instances": [{"model": "leaf", "rotation": [0, 0, 2e38, 2e38]}],
+        "environment": {"type": "sky", "sunDirection": [-0.8, 1e38, 1e38]}})");
+    const glm::vec3 turned(scene.nodeMatrices(0)[scene.instances[0].node] * glm::vec4(0, 1, 0, 1));
+    EXPECT_NEAR(glm::distance(turned, {-1, 0, 0}), 0, 1e-5);
+    for (const glm::vec3& radiance : scene.environment.radiance) ASSERT_TRUE(radiance.x >= 0 && std::isfinite(radiance.x));
+}
+
 // If this fails, a file without "instances" shows nothing.
 TEST(SceneFile, PlacesEveryModelOnceByItself) {
     const Scene scene = load(R"({"format": 1, "models": {"one": {"file": "triangle.gltf"}, "two": {"file": "triangle.gltf"}}})");
