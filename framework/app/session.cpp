@@ -25,7 +25,7 @@ glm::uvec2 readSize(const std::string& option, const std::string& text) {
 
 void SessionOptions::addTo(CLI::App& command) {
     command.add_option("graph", graph, "graph file")->required();
-    command.add_option_function<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's");
+    command.add_option_function<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's")->check(checkNotEmpty);
     command.add_option_function<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames")->check(CLI::Range(1, std::numeric_limits<int>::max()));
     command.add_option_function<std::string>("--size", [this](const std::string& v) { changes.size = readSize("--size", v); }, "of the frame, WIDTHxHEIGHT");
     command.add_option_function<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers")->check(checkNotEmpty);

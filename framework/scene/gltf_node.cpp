@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace lodestir {
 namespace {
@@ -107,8 +108,11 @@ private:
             return accessor.floats();
         };
         const std::vector<float> translations = values("TRANSLATION", 3), rotations = values("ROTATION", 4), scales = values("SCALE", 3);
-        if (import_.scene.nodes.size() + count > maxNodes)
-            throw import_.file.error(pointer, fmt::format("with {} instances more the scene has more than {} nodes", count, maxNodes));
+        if (import_.scene.nodes.size() + count > maxNodes) {
+            if (!std::exchange(isFull_, true))
+                import_.problem(pointer, fmt::format("with {} instances more the scene has more than {} nodes", count, maxNodes));
+            return;
+        }
         for (std::size_t i = 0; i < count; ++i) {
             Node child;
             child.name = fmt::format("{} {}", name, i);
@@ -277,6 +281,7 @@ private:
 
     GltfImport& import_;
     const tinygltf::Model& model_;
+    bool isFull_ = false;  ///< of nodes: said once
     std::map<std::vector<std::pair<int, std::vector<float>>>, std::uint32_t> meshes_;
 };
 

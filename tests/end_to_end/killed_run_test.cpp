@@ -63,7 +63,7 @@ TEST_F(KilledRun, StudiesResumeAfterAnyKill) {
     write("study.json", {{"format", 1},
                          {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
                          {"size", {24, 16}},
-                         {"seeds", 40},
+                         {"seeds", 12},
                          {"reference", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"spp", 8}}},
                          {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}}}}});
     const Path out = folder / "out";
@@ -81,7 +81,7 @@ TEST_F(KilledRun, StudiesResumeAfterAnyKill) {
     const Output output = runProcess(command);
     ASSERT_EQ(output.exitCode, 0) << output.err;
     const std::string rows = readText(out / "results.jsonl");
-    EXPECT_EQ(std::ranges::count(rows, '\n'), 40);
+    EXPECT_EQ(std::ranges::count(rows, '\n'), 12);
     EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
     EXPECT_TRUE(scrapsIn(out).empty()) << scrapsIn(out)[0];
 }

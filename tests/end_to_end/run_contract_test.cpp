@@ -181,6 +181,7 @@ TEST_F(RunContract, WrongUseEndsWithTwo) {
                                        {"run", graph, "--seed", "-1"},
                                        {"run", graph, "--rays", ""},
                                        {"run", graph, "--reference", ""},
+                                       {"run", graph, "--scene", ""},
                                        {"compare", "one.exr"}}) {
         const Output output = lodestir(arguments);
         EXPECT_EQ(output.exitCode, 2) << "lodestir " << commandText(arguments) << "\n" << output.err;
