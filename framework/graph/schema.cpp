@@ -143,7 +143,8 @@ Json frameSchema() {
     size["items"] = described("integer", "");
     size["items"]["minimum"] = 1;
     size["items"]["maximum"] = maxFrameSize;
-    size["minItems"] = size["maxItems"] = 2;
+    size["minItems"] = 2;  // each by itself: adding a member moves the others
+    size["maxItems"] = 2;
     frame["properties"]["count"] = described("integer", "frames to render");
     frame["properties"]["count"]["minimum"] = 1;
     frame["properties"]["seed"] = described("integer", "of all random numbers");

@@ -183,7 +183,7 @@ TEST(Hazards, FindPlantedFaults) {
 
     g = workshop.build(cases[6].passes, cases[6].show);  // q must read a.sum before a runs
     Plan late = makePlan(g);
-    std::ranges::rotate(late.steps, late.steps.begin() + 4);  // a first
+    std::rotate(late.steps.begin(), late.steps.begin() + 4, late.steps.end());  // a first
     EXPECT_TRUE(has(findHazards(late, g), Hazard::Kind::wrongContent));
 
     g = workshop.build(cases[10].passes, cases[10].show);
