@@ -26,6 +26,7 @@ namespace {
 struct RunOptions {
     SessionOptions session;
     Path out = "out";
+    Path trace;
     Path reference;
     std::vector<std::string> metrics{"mse", "relmse", "mae", "bias"};  ///< none takes longer than writing the image
     bool checkNan = false, lastOnly = false, json = false;
@@ -77,6 +78,7 @@ int runGraph(const RunOptions& options) {
     if (reference) warnOfSameSeed(options.reference, graph.description.seed);
 
     nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+    std::vector<FrameReport> reports;
     const int count = graph.description.count;
     double setup = 0;
     log::Progress progress("rendering", std::size_t(count));
@@ -101,8 +103,10 @@ int runGraph(const RunOptions& options) {
             if (options.checkNan && graph.port(source).type.kind == PortType::Kind::image) requireFinite(runner.readImage(source), graph.nameOf(source));
             if (write) dumpPort(session, source, options.out / (graph.nameOf(source) + suffix));
         }
+        if (!options.trace.empty()) reports.push_back(report);
         frames.push_back(frameJson(report, metrics, options.session.countSteps));
     }
+    if (!options.trace.empty()) writeFile(options.trace, traceJson(reports, session.device().facts().name).dump() + "\n");
     nlohmann::ordered_json json = runJson(session, setup);
     json["frames"] = std::move(frames);
     writeFile(options.out / "run.json", json.dump(2) + "\n");
@@ -125,6 +129,7 @@ void addRun(CLI::App& app, std::function<int()>& run) {
         ->needs(reference)
         ->capture_default_str();
     command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
+    command->add_option("--trace", options->trace, "file for the passes' times as a trace that Perfetto and chrome://tracing show")->check(checkNotEmpty);
     command->add_flag("--check-nan", options->checkNan, "fail when a shown or dumped image holds a value that is not finite");
     command->add_flag("--last", options->lastOnly, "write images of the last frame only");
     command->add_flag("--json", options->json, "print run.json as well");

@@ -4,6 +4,8 @@
 #include <lodestir/revision.h>
 #include <nlohmann/json.hpp>
 
+#include <numeric>
+
 namespace lodestir {
 
 using OrderedJson = nlohmann::ordered_json;
@@ -17,7 +19,22 @@ OrderedJson frameJson(const FrameReport& frame, const std::map<std::string, doub
             if (i != RAYS_STEPS || countSteps) rays[std::string(rayPurposes[i])] = pass.rays[i];
         passes[pass.name] = {{"ms", pass.milliseconds}, {"rays", rays}};
     }
-    return {{"frame", frame.frame}, {"ms", frame.milliseconds}, {"passes", passes}, {"metrics", metrics}};
+    return {{"frame", frame.frame}, {"ms", frame.milliseconds}, {"wholeMs", frame.wholeMilliseconds}, {"passes", passes}, {"metrics", metrics}};
+}
+
+OrderedJson traceJson(std::span<const FrameReport> frames, const std::string& device) {
+    OrderedJson events = OrderedJson::array();
+    double begin = 0;  // milliseconds
+    const auto add = [&](const std::string& name, double start, double length, int row, OrderedJson facts) {
+        events.push_back({{"name", name}, {"ph", "X"}, {"ts", 1000 * (begin + start)}, {"dur", 1000 * length}, {"pid", 0}, {"tid", row}, {"args", std::move(facts)}});
+    };
+    for (const FrameReport& frame : frames) {
+        add("frame " + std::to_string(frame.frame), 0, frame.wholeMilliseconds, 0, OrderedJson::object());
+        for (const PassReport& pass : frame.passes)
+            if (pass.ran) add(pass.name, pass.start, pass.milliseconds, 1, {{"rays", std::accumulate(pass.rays.begin(), pass.rays.begin() + RAYS_STEPS, std::uint64_t(0))}});
+        begin += frame.wholeMilliseconds;
+    }
+    return {{"traceEvents", events}, {"displayTimeUnit", "ms"}, {"otherData", {{"device", device}}}};
 }
 
 OrderedJson runJson(Session& session, double totalMilliseconds) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <span>
 #include <string>
 
 namespace lodestir {
@@ -15,6 +16,8 @@ inline constexpr std::array<std::string_view, RAYS_PURPOSES> rayPurposes{"primar
 
 /// One member of "frames".
 nlohmann::ordered_json frameJson(const FrameReport& frame, const std::map<std::string, double>& metrics, bool countSteps);
+/// The frames' passes one after the other as Chrome's trace event format has them (chrome://tracing, Perfetto): microseconds on the device.
+nlohmann::ordered_json traceJson(std::span<const FrameReport> frames, const std::string& device);
 /// The whole file but for "frames". `totalMilliseconds`: from the start of the program to the first frame's end, less the frame itself.
 nlohmann::ordered_json runJson(Session& session, double totalMilliseconds);
 

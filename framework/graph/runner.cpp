@@ -66,7 +66,7 @@ public:
           options_(std::move(options)),
           plan_(makePlan(graph, options_.pinned, {.allBarriers = options_.allBarriers})),
           kernels_(device, graph, options_),
-          commands_(device, std::uint32_t(2 * plan_.steps.size() + 2) + (options_.slice > 0 ? 2 * maxPieces : 0)),
+          commands_(device, std::uint32_t(2 * plan_.steps.size() + 4) + (options_.slice > 0 ? 2 * maxPieces : 0)),
           slices_(options_.slice),
           size_(graph.description.size),
           counters_(device, maxDispatches * counterStride, gpu::Memory::device, "tile counters") {
@@ -118,6 +118,7 @@ private:
         std::uint32_t dispatches = 0;
         std::vector<Step> steps;
         std::vector<Piece> pieces;
+        std::uint32_t begin = 0;  ///< stamp
     };
     void beginSubmission(Work& work);
     void endSubmission(Work& work);
@@ -413,6 +414,7 @@ FrameReport Runner::State::run() {
 
 void Runner::State::beginSubmission(Work& work) {
     commands_.begin();
+    work.begin = commands_.timestamp();
     commands_.fill(counters_, 0, counters_.size(), 0);
     commands_.barrier();
     work.dispatches = 0;
@@ -421,9 +423,15 @@ void Runner::State::beginSubmission(Work& work) {
 
 /// Waits, and takes the times.
 void Runner::State::endSubmission(Work& work) {
+    const std::uint32_t end = commands_.timestamp();
     commands_.submit();
     commands_.wait();
-    for (const Work::Step& step : work.steps) work.report.passes[step.report].milliseconds += commands_.milliseconds(step.from, step.to);
+    for (const Work::Step& step : work.steps) {
+        PassReport& pass = work.report.passes[step.report];
+        if (pass.milliseconds == 0) pass.start = work.report.wholeMilliseconds + commands_.milliseconds(work.begin, step.from);
+        pass.milliseconds += commands_.milliseconds(step.from, step.to);
+    }
+    work.report.wholeMilliseconds += commands_.milliseconds(work.begin, end);
     for (const Work::Piece& piece : work.pieces) slices_.measured(piece.key, piece.rows, commands_.milliseconds(piece.from, piece.to));
     work.steps.clear();
     work.pieces.clear();

@@ -39,13 +39,15 @@ struct PassReport {
     std::string name;
     bool ran = false;         ///< false: an onChange pass with nothing to do
     bool setup = false;       ///< onChange: its time counts as set-up
+    double start = 0;         ///< milliseconds on the device since the frame's beginning
     double milliseconds = 0;  ///< on the device
     RayCounts rays{};
 };
 
 struct FrameReport {
     std::uint32_t frame = 0;
-    double milliseconds = 0;  ///< on the device, first to last step
+    double milliseconds = 0;       ///< on the device, of all steps but set-up
+    double wholeMilliseconds = 0;  ///< from the frame's beginning to its end on the device: what is more than its steps went into clearing, barriers and reading back
     std::vector<PassReport> passes;
 };
 

@@ -72,6 +72,12 @@ void makeFrames(PosedVertices& posed, const MeshLevel& level) {
 
 }  // namespace
 
+std::size_t deformingVertices(const Mesh& mesh) {
+    std::size_t count = 0;
+    for (const MeshLevel& level : mesh.levels) count += mesh.deforms() ? level.positions.size() * (1 + level.targets.size()) : 0;
+    return count;
+}
+
 Pose poseAt(const Scene& scene, float frame) { return {scene.nodeMatrices(frame), scene.morphWeights(frame)}; }
 
 std::vector<glm::mat4> jointMatrices(const Scene& scene, const Mesh& mesh, std::span<const glm::mat4> nodes) {

@@ -13,6 +13,11 @@ struct PosedVertices {
     std::vector<glm::vec4> tangents;
 };
 
+/// Vertices of a mesh and of its morph targets, 0 where it doesn't deform. Each instance has its own; a scene has `maxDeforming` at most, so
+/// that small files cannot ask for all memory there is.
+std::size_t deformingVertices(const Mesh& mesh);
+inline constexpr std::size_t maxDeforming = std::size_t(1) << 25;
+
 /// All that moves a scene at a frame.
 struct Pose {
     std::vector<glm::mat4> nodes;            ///< to world

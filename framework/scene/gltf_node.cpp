@@ -2,6 +2,7 @@
 // Nodes of a glTF model.
 #include <framework/scene/accessor.h>
 #include <framework/scene/animation.h>
+#include <framework/scene/deformation.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/gltf_hierarchy.h>
 #include <framework/scene/gltf_mesh.h>
@@ -207,6 +208,9 @@ private:
         const std::string& name = model_.meshes[static_cast<std::size_t>(own)].name;
         mesh.name = name.empty() ? fmt::format("mesh {}", own) : name;
         addDeformation(node, mesh);
+        deforming_ += deformingVertices(mesh);
+        if (deforming_ > maxDeforming)
+            throw import_.file.error(fmt::format("/nodes/{}/mesh", node), fmt::format("with it more than {} vertices deform", maxDeforming));
         import_.scene.meshes.push_back(std::move(mesh));
         return static_cast<std::uint32_t>(import_.scene.meshes.size() - 1);
     }
@@ -281,6 +285,7 @@ private:
 
     GltfImport& import_;
     const tinygltf::Model& model_;
+    std::size_t deforming_ = 0;  ///< vertices, so far
     bool isFull_ = false;  ///< of nodes: said once
     std::map<std::vector<std::pair<int, std::vector<float>>>, std::uint32_t> meshes_;
 };

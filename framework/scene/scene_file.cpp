@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reading of scene files.
 #include <framework/core/is_file.h>
+#include <framework/scene/deformation.h>
 #include <framework/scene/fields.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/scene_file.h>
@@ -67,6 +68,7 @@ struct Model {
     VariantChoice variant;
     bool loaded = false;
     Mark begin{}, end{};
+    std::size_t deforming = 0;  ///< vertices that each instance has for itself
 };
 
 class SceneFileLoader {
@@ -135,13 +137,16 @@ private:
         if (model.path.empty()) return;
         if (model.loaded) {
             const std::size_t more = model.end.nodes - model.begin.nodes;
-            if (scene_.nodes.size() + more <= maxNodes) return repeatModel(scene_, model.begin, model.end, parent);
-            if (!isFull_) problems_.add(model.where, fmt::format("with all its instances the scene has more than {} nodes", maxNodes));
-            isFull_ = true;
+            if (isFull_) return;
+            deforming_ += model.deforming;
+            isFull_ = scene_.nodes.size() + more > maxNodes || deforming_ > maxDeforming;
+            if (!isFull_) return repeatModel(scene_, model.begin, model.end, parent);
+            problems_.add(model.where, fmt::format("with all its instances the scene has more than {} nodes or {} vertices that deform", maxNodes, maxDeforming));
             return;
         }
         model.loaded = true;
         model.begin = markOf(scene_);
+        const std::size_t before = scene_.meshes.size();
         try {
             loadGltf(model.path, scene_, parent, model.variant);
         } catch (const Error& error) {
@@ -149,6 +154,8 @@ private:
             model.path.clear();
         }
         model.end = markOf(scene_);
+        for (std::size_t m = before; m < scene_.meshes.size(); ++m) model.deforming += deformingVertices(scene_.meshes[m]);
+        deforming_ += model.deforming;
     }
 
     void placeInstances(const Json* instances) {
@@ -296,6 +303,7 @@ private:
     Scene scene_;
     Problems problems_;
     std::vector<Model> models_;
+    std::size_t deforming_ = 0;  ///< vertices, so far
     bool isFull_ = false;  ///< of nodes: said once
 };
 

@@ -53,7 +53,7 @@ TEST_F(RunContract, RunJsonHasTheKeysOfTheContract) {
     ASSERT_EQ(json["frames"].size(), 2u);
     for (int i = 0; i < 2; ++i) {
         const OrderedJson& frame = json["frames"][std::size_t(i)];
-        EXPECT_EQ(keysOf(frame), (std::vector<std::string>{"frame", "ms", "passes", "metrics"}));
+        EXPECT_EQ(keysOf(frame), (std::vector<std::string>{"frame", "ms", "wholeMs", "passes", "metrics"}));
         EXPECT_EQ(frame["frame"], i);
         EXPECT_GT(frame["ms"], 0);
         for (const char* pass : {"trace", "accumulate", "display"}) {
@@ -77,6 +77,30 @@ TEST_F(RunContract, RunJsonHasTheKeysOfTheContract) {
     EXPECT_EQ(json["graph"]["passes"]["trace"]["set"]["roulette"], true);
     EXPECT_EQ(json["graph"]["frame"]["seed"], 7);
     EXPECT_EQ(json["graph"]["frame"]["size"], OrderedJson::array({64, 48}));
+}
+
+// If this fails, times are lost on their way out of the program: what a frame takes must be what its passes take, but for clearing and reading back.
+TEST_F(RunContract, TheTraceCoversItsFrames) {
+    const Path out = run("out", pathTracer, with(small, {"--frames", "3", "--set", "trace.spp=16", "--trace", (folder / "trace.json").string()}));
+    const OrderedJson events = readJson(folder / "trace.json")["traceEvents"], frames = readJson(out / "run.json")["frames"];
+    double end = 0, begin = 0, passes = 0;
+    std::size_t frame = 0;
+    for (const OrderedJson& event : events) {
+        EXPECT_EQ(event["ph"], "X");
+        const double start = event["ts"], length = event["dur"];
+        if (event["tid"] == 0) {  // a frame, then its passes
+            EXPECT_NEAR(start, end, 1e-3);
+            EXPECT_NEAR(length, 1000 * frames.at(frame++)["wholeMs"].get<double>(), 1e-3);
+            begin = start;
+            end = start + length;
+        } else {
+            EXPECT_GE(start, begin - 1e-3);
+            EXPECT_LE(start + length, end + 1e-3);
+            passes += length;
+        }
+    }
+    EXPECT_EQ(frame, 3u);
+    EXPECT_GT(passes, 0.7 * end) << "most of the time is nobody's";
 }
 
 // If this fails, a picture can't be made again from what stands in it.
