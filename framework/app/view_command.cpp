@@ -38,17 +38,17 @@ int showWindow(const ViewOptions& options) {
         using Clock = Window::Clock;
         // On a CPU driver drawing the window takes time from rendering: what nobody waits for is drawn less often.
         const auto pause = std::chrono::milliseconds(device->facts().type == "cpu" ? 80 : 12);
+        constexpr auto rest = std::chrono::milliseconds(30);
         Clock::time_point drawn{};
         std::shared_ptr<const ViewStatus> seen;
-        int settle = 3;  // drawings that are due: panels need a few to come to rest after input
+        int settle = 3;  // drawings that are due: panels need a few to come to rest, but new input goes first
         while (!window.shouldClose()) {
-            const double wait = settle > 0 ? 0 : std::max(0.0, std::chrono::duration<double>(renderer.status() != seen ? drawn + pause - Clock::now() : std::chrono::milliseconds(250)).count());
-            const auto input = window.takeInput(wait);
+            const Clock::time_point now = Clock::now(), due = settle > 0 ? drawn + rest : renderer.status() != seen ? drawn + pause : now + std::chrono::milliseconds(250);
+            const auto input = window.takeInput(std::max(0.0, std::chrono::duration<double>(due - now).count()));
             const std::shared_ptr<const ViewStatus> status = renderer.status();
-            if (input) settle = 3;
-            const bool news = status != seen && Clock::now() - drawn >= pause;
-            if (settle == 0 && !news) continue;
-            settle = std::max(settle - 1, 0);
+            const auto since = Clock::now() - drawn;
+            if (!input && !(settle > 0 && since >= rest) && !(status != seen && since >= pause)) continue;
+            settle = input ? 2 : std::max(settle - 1, 0);
             if (!status->failure.empty()) {
                 failure = status->failure;
                 break;
