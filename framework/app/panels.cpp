@@ -640,7 +640,7 @@ void Panels::drawHelp() {
                                                {"H, Esc", "this help"}};
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * (window.x + panelWidth), 0.42f * window.y}, 0, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({480, 0});
+    ImGui::SetNextWindowSize({560, 0});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {22, 18});
     ImGui::Begin("help", nullptr, fixedWindow & ~ImGuiWindowFlags_NoBringToFrontOnFocus);
