@@ -62,6 +62,17 @@ template <class T> using Pixels = std::unique_ptr<T, decltype(&stbi_image_free)>
 
 }  // namespace
 
+bool hasWholeChunks(std::string_view png) {
+    constexpr std::size_t frame = 12;  // length, type, checksum
+    for (std::size_t at = signature.size();;) {
+        if (png.size() < at + frame) return false;
+        const std::size_t length = bigEndian(png.substr(at));
+        if (length > png.size() - at - frame) return false;
+        if (png.substr(at + 4, 4) == "IEND") return true;
+        at += frame + length;
+    }
+}
+
 ImageData readPng(const Path& path) {
     const std::string content = readText(path);
     const auto refuse = [&](const std::string& what) { throw Error(Where{path.string()}, what); };

@@ -3,6 +3,8 @@
 #pragma once
 #include <framework/image/image.h>
 
+#include <string_view>
+
 namespace lodestir {
 
 /// Writes 8 bits a channel: grey, RGB or RGBA (1, 3 or 4 channels), clamped to [0, 1] and sRGB-encoded; opacity stays linear, NaN
@@ -12,5 +14,8 @@ LODESTIR_API void writePng(const std::filesystem::path& path, const ImageData& i
 /// Reads 8 or 16 bits a channel and decodes sRGB to linear values in [0, 1]. Channels: 1 grey, 2 with opacity, 3 RGB, 4 RGBA.
 /// Throws Error naming the file when it cannot be read, is no PNG file, is damaged or cut, or claims an absurd size.
 LODESTIR_API ImageData readPng(const std::filesystem::path& path);
+
+/// Do all chunks up to the last lie inside these bytes? stb takes the memory that a chunk claims to need before it looks for the chunk.
+LODESTIR_API bool hasWholeChunks(std::string_view png);
 
 }  // namespace lodestir

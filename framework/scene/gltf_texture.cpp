@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Textures of a glTF model.
 #include <framework/core/tasks.h>
+#include <framework/image/png.h>
 #include <framework/scene/accessor.h>
 #include <framework/scene/gltf_texture.h>
 #include <framework/scene/uri.h>
@@ -50,6 +51,8 @@ void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     const std::string_view start(reinterpret_cast<const char*>(data), std::min<std::size_t>(bytes.size(), 4));
     const bool isJpeg = start.starts_with("\xff\xd8");
     if (!isJpeg && start != "\x89PNG") throw Error("the image is neither PNG nor JPEG");
+    if (!isJpeg && !hasWholeChunks({reinterpret_cast<const char*>(data), bytes.size()}))
+        throw Error("the image cannot be decoded: it ends in the middle of a chunk", "is the file cut short?");
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) {
         throw Error(fmt::format("the image cannot be read: {}", stbi_failure_reason()), "PNG and JPEG are supported");

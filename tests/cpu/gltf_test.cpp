@@ -558,6 +558,14 @@ TEST(Gltf, RefusesWhatWouldBeReadOutOfBounds) {
              m.json["materials"][0]["emissiveTexture"]["index"] = 0;
          },
          "/images/0: the image is neither PNG nor JPEG"},
+        {"image with a chunk of a gigabyte in a few bytes",
+         [](GltfModel& m) {
+             m.addTriangle();
+             m.json["images"] = {{{"uri", "data:,%89PNG%0D%0A%1A%0A%00%00%00%0DIHDR%00%00%00%01%00%00%00%01%08%02%00%00%00%90wS%DE%40%00%00%00IDATx"}}};
+             m.json["textures"] = {{{"source", 0}}};
+             m.json["materials"][0]["emissiveTexture"]["index"] = 0;
+         },
+         "it ends in the middle of a chunk"},
         {"image of a billion texels in a few bytes",
          [](GltfModel& m) {
              m.addTriangle();
