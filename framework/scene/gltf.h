@@ -6,10 +6,15 @@
 
 namespace lodestir {
 
-/// A choice among a model's KHR_materials_variants, and where somebody made it.
-struct VariantChoice {
-    std::string name;  ///< empty: the materials as they are
+/// A name out of several of a model, and where somebody chose it.
+struct GltfChoice {
+    std::string name;  ///< empty: none is chosen
     Where where;
+};
+
+struct GltfChoices {
+    GltfChoice variant;    ///< of KHR_materials_variants; none: the materials as they are
+    GltfChoice animation;  ///< none: all play together
 };
 
 /// Nodes of a scene, each instance being one; a small file can ask for any number by instancing what instances.
@@ -22,6 +27,6 @@ inline constexpr std::size_t maxNodes = std::size_t(1) << 22;
 /// EXT_mesh_gpu_instancing, MSFT_lod (nodes);
 /// approximated with a note: KHR_materials_pbrSpecularGlossiness.
 /// Error with every problem found, each at its JSON pointer; the scene is not to be used then.
-LODESTIR_API void loadGltf(const Path& path, Scene& scene, std::uint32_t parentNode, const VariantChoice& variant = {});
+LODESTIR_API void loadGltf(const Path& path, Scene& scene, std::uint32_t parentNode, const GltfChoices& choices = {});
 
 }  // namespace lodestir

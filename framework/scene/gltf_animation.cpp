@@ -76,6 +76,7 @@ void loadGltfAnimations(GltfImport& import) {
     const auto& animations = import.file.model.animations;
     std::set<std::pair<std::uint32_t, AnimatedValue>> moved;
     for (std::size_t a = 0; a < animations.size(); ++a) {
+        if (import.animation >= 0 && a != static_cast<std::size_t>(import.animation)) continue;
         for (std::size_t c = 0; c < animations[a].channels.size(); ++c) {
             const tinygltf::AnimationChannel& source = animations[a].channels[c];
             const std::optional<AnimatedValue> value = animatedValue(source.target_path);
@@ -107,7 +108,7 @@ void loadGltfAnimations(GltfImport& import) {
                 continue;
             }
             if (!moved.insert({node, *value}).second) {
-                import.note("animations play together; where two move the same node, the first one counts");
+                import.note("animations play together; where two move the same node, the first one counts (a scene file can choose one)");
                 continue;
             }
             try {

@@ -5,7 +5,7 @@
 
 namespace lodestir {
 
-/// Appends the channels of all animations, which play together; where two of them move the same value of a node the first one
+/// Appends the channels of the chosen animation, or of all of them, which play together then; where two of them move the same value of a node the first one
 /// counts. Channels of nodes outside the scene are left out. Wrong samplers are gathered as problems.
 void loadGltfAnimations(GltfImport& import);
 

@@ -25,6 +25,7 @@ struct GltfImport {
     };
     std::vector<Skinned> skinned;          ///< meshes that wait for their skins
     int variant = -1;                      ///< of KHR_materials_variants, -1: none is chosen
+    int animation = -1;                    ///< that plays, -1: all
     std::set<std::string> noted;           ///< each note is said once
 
     /// Adds a note "file name: text" to the scene.

@@ -65,7 +65,7 @@ struct Model {
     std::string name;
     Path path;
     Where where;
-    VariantChoice variant;
+    GltfChoices choices;
     bool loaded = false;
     Mark begin{}, end{};
     std::size_t deforming = 0;  ///< vertices that each instance has for itself
@@ -111,9 +111,13 @@ private:
             std::string file;
             const Json* member = fields.require("file");
             fields.text("file", file);
-            VariantChoice variant;
-            fields.text("variant", variant.name);
-            if (const Json* chosen = fields.find("variant")) variant.where = chosen->where();
+            GltfChoices choices;
+            const auto choose = [&](const char* key, GltfChoice& choice) {
+                fields.text(key, choice.name);
+                if (const Json* chosen = fields.find(key)) choice.where = chosen->where();
+            };
+            choose("variant", choices.variant);
+            choose("animation", choices.animation);
             fields.finish();
             if (!member || file.empty()) continue;
             Path path = path_.parent_path() / file;
@@ -123,7 +127,7 @@ private:
                               "generated models lie in the build's scenes folder");
                 path.clear();
             }
-            models_.push_back({name, path, member->where(), variant});
+            models_.push_back({name, path, member->where(), choices});
         }
         if (models->members().empty()) problems_.add(models->where(), "the scene has no models");
     }
@@ -148,7 +152,7 @@ private:
         model.begin = markOf(scene_);
         const std::size_t before = scene_.meshes.size();
         try {
-            loadGltf(model.path, scene_, parent, model.variant);
+            loadGltf(model.path, scene_, parent, model.choices);
         } catch (const Error& error) {
             problems_.add(error);
             model.path.clear();

@@ -52,6 +52,36 @@ TEST(Animation, CubicFollowsHermite) {
     EXPECT_NEAR((evaluate(channel, 0.001f).x - evaluate(channel, 0).x) / 0.001f, 3, 0.02);  // it leaves with its tangent
 }
 
+// If this fails, a fox that can sit, walk and run does all at once.
+TEST(Animation, OneOfSeveralIsChosen) {
+    GltfModel model;
+    const int node = model.addTriangle();
+    const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+    for (const float far : {1.0f, 5.0f}) {
+        const int shift = model.positions({0, 0, 0, far, 0, 0});
+        model.json["animations"].push_back({{"name", far > 1 ? "run" : "walk"},
+                                            {"samplers", {{{"input", times}, {"output", shift}}}},
+                                            {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}});
+    }
+    const Path file = model.write(Path(testing::TempDir()) / "lodestir_animation" / "fox.gltf");
+    const auto reached = [&](const std::string& name) {
+        Scene scene;
+        loadGltf(file, scene, none, {.variant = {}, .animation = {name, {}}});
+        return scene.nodeMatrices(29.999f)[0][3].x;
+    };
+    EXPECT_NEAR(reached("walk"), 1, 1e-3);
+    EXPECT_NEAR(reached("run"), 5, 1e-3);
+    EXPECT_NEAR(reached(""), 1, 1e-3) << "of two that move the same node the first counts";
+    try {
+        reached("rum");
+        FAIL() << "it was loaded";
+    } catch (const Error& error) {
+        const std::string text = error.what();
+        EXPECT_NE(text.find("fox.gltf has no animation \"rum\""), std::string::npos) << text;
+        EXPECT_NE(text.find("did you mean \"run\""), std::string::npos) << text;
+    }
+}
+
 // If this fails, frames show another time than the file's seconds.
 TEST(Animation, ClockRepeatsAndHasSpeed) {
     Scene scene;
