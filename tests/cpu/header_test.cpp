@@ -153,7 +153,7 @@ TEST(Header, TheBlockLiesWhereTheShaderLooks) {
                                    offsetof(FrameInfo, validate), offsetof(FrameInfo, salt), offsetof(FrameInfo, pad), offsetof(FrameInfo, ledger), offsetof(FrameInfo, faults)}));
     EXPECT_TRUE(contains(offsets, {offsetof(PortRecord, address), offsetof(PortRecord, size)}));
     EXPECT_TRUE(contains(offsets, {offsetof(Push, block), offsetof(Push, tileCounter), offsetof(Push, base), offsetof(Push, extent), offsetof(Push, arguments),
-                                   offsetof(Push, warm), offsetof(Push, pad)}));
+                                   offsetof(Push, warm), offsetof(Push, rows)}));
     const std::size_t first = *layout.parameters[0];  // knee: the first uniform
     std::vector<std::size_t> block{0}, params;
     block.insert(block.end(), layout.ports.begin(), layout.ports.end());
