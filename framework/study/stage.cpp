@@ -102,7 +102,7 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<StudySettin
         .scene = std::filesystem::absolute(study_.scenes[scene].file),
         .size = study_.size,
         .seed = seed,
-        .setFolder = std::filesystem::absolute(study_.file).parent_path(),
+        .setFolder = study_.file.empty() ? Path() : std::filesystem::absolute(study_.file).parent_path(),  // a study made in memory has no place
         .variant = choice.variant};
     for (const auto* list : {&choice.set, &knobs})
         for (const StudySetting& setting : *list) options.set.push_back(setting.name + "=" + setting.value.dump(-1));
