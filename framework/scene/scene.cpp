@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Loads a scene and gives it what every scene needs: a camera, a light, a material.
 #include <framework/core/error.h>
-#include <framework/image/srgb.h>
 #include <framework/scene/camera.h>
+#include <framework/scene/default_light.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/scene_file.h>
-#include <framework/scene/sky.h>
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -17,50 +16,6 @@
 
 namespace lodestir {
 namespace {
-
-/// Mean over an emissive texture of each texel's brightest channel, linear; of large ones over some texels.
-float meanBrightness(const Texture& texture) {
-    const std::size_t texels = texture.rgba.size() / 4, step = std::max<std::size_t>(1, texels / 65536) | 1;  // odd: not a column of its own
-    double sum = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < texels; i += step, ++count) {
-        const std::uint8_t* texel = &texture.rgba[4 * i];
-        sum += decodeSrgb(static_cast<float>(std::max({texel[0], texel[1], texel[2]})) / 255);
-    }
-    return count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0f;
-}
-
-/// Does the scene light itself? Lights do. Emissive triangles do where their light, spread over the sphere around the scene, would make a
-/// white surface brighter than 0.03; less is a display or a pilot lamp on a model that was meant for a viewer with a light of its own.
-bool hasLight(const Scene& scene) {
-    if (!scene.lights.empty()) return true;
-    const Pose pose = poseAt(scene, 0);
-    std::vector<float> shares(scene.textures.size(), -1);
-    const auto shareOf = [&](const TextureSlot& map) {
-        if (map.texture == none) return 1.0f;
-        float& share = shares[map.texture];
-        if (share < 0) share = meanBrightness(scene.textures[map.texture]);
-        return share;
-    };
-    double power = 0;  // over pi
-    for (const Instance& instance : scene.instances) {
-        const MeshLevel& level = scene.meshes[instance.mesh].levels[0];
-        const auto shines = [&](std::uint32_t material) { return scene.materials[material].emission != glm::vec3(0); };
-        if (std::ranges::none_of(level.materials, shines)) continue;
-        const std::vector<glm::vec3> positions = deform(scene, instance.mesh, 0, pose).positions;
-        const glm::mat3 linear(scene.instanceMatrix(instance, pose.nodes));
-        for (std::size_t t = 0; t < level.triangles.size(); ++t) {
-            const Material& material = scene.materials[level.materials[t]];
-            if (!shines(level.materials[t])) continue;
-            const glm::uvec3 v = level.triangles[t];
-            const glm::vec3 normal = glm::cross(linear * (positions[v.y] - positions[v.x]), linear * (positions[v.z] - positions[v.x]));
-            power += 0.5 * glm::length(normal) * shareOf(material.emissiveMap) * std::max({material.emission.r, material.emission.g, material.emission.b});
-        }
-    }
-    const auto bounds = scene.bounds();
-    const double radius = 0.5 * glm::length(bounds[1] - bounds[0]);
-    return power > 0 && power / (4 * glm::pi<double>() * radius * radius) > 0.03;
-}
 
 void noteLevels(Scene& scene) {
     if (scene.lod.mode != LodMode::finest && scene.lod.mode != LodMode::schedule)
@@ -74,14 +29,6 @@ void noteLevels(Scene& scene) {
                                              s.level, scene.instances[s.instance].name, s.frame, levels);
         if (said.insert(note).second) scene.notes.push_back(note);
     }
-}
-
-void addSky(Scene& scene, bool hasExposure) {
-    // A white surface in this sun and sky has a radiance near 5; two stops down it is near 1.
-    constexpr float exposure = -2;
-    scene.environment = makeSky({});
-    if (!hasExposure) scene.exposure = exposure;
-    scene.notes.push_back(fmt::format("there is no light, so a clear sky with the sun is added; exposure {} stops", scene.exposure));
 }
 
 void addCamera(Scene& scene) {
@@ -153,13 +100,13 @@ Scene loadScene(const Path& path) {
     }
     if (scene.instances.empty()) scene.notes.push_back("there are no triangles to be seen");
     if (scene.materials.empty()) scene.materials.push_back({.name = "default"});
-    if (!says.environment && !hasLight(scene)) addSky(scene, says.exposure);
     noteLevels(scene);
-    noteUnreachableLight(scene);
     if (scene.camera.keys.empty())
         addCamera(scene);
     else if (scene.camera.node != none)
         focusModelCamera(scene);
+    if (!says.environment) addDefaultLight(scene, says.exposure);
+    noteUnreachableLight(scene);
     return scene;
 }
 
