@@ -35,6 +35,8 @@ private:
         bool automatic = false;  ///< range follows the picture
     };
 
+    /// How a picture looks best at first, going by its numbers and its name.
+    static Look firstLook(const std::string& port, const PortField& field, bool& automatic);
     void follow(const ViewStatus& status);
     void keys(const ViewStatus& status);
     void drawGraph(const ViewStatus& status);

@@ -23,7 +23,7 @@ struct MeshFacts {
     std::string name;
     std::vector<std::size_t> triangles;  ///< of each level
     std::vector<float> errors;
-    std::size_t instances = 0;
+    std::size_t instances = 0, joints = 0, targets = 0;  ///< joints of its skin, morph targets
 };
 
 struct Facts {
@@ -47,6 +47,8 @@ Facts gather(const Scene& scene) {
     std::vector<std::size_t> emissive;  // triangles of each mesh
     for (const Mesh& mesh : scene.meshes) {
         MeshFacts& m = facts.meshes.emplace_back(MeshFacts{.name = mesh.name});
+        m.joints = mesh.skin == none ? 0 : scene.skins[mesh.skin].nodes.size();
+        m.targets = mesh.weights.size();
         for (const MeshLevel& level : mesh.levels) {
             m.triangles.push_back(level.triangles.size());
             m.errors.push_back(level.error);
@@ -100,6 +102,8 @@ Json toJson(const Scene& scene, const Facts& facts) {
         Json mesh = Json::object(), levels = Json::array();
         mesh["name"] = Json(m.name);
         mesh["instances"] = count(m.instances);
+        mesh["joints"] = count(m.joints);
+        mesh["morphTargets"] = count(m.targets);
         for (std::size_t level = 0; level < m.triangles.size(); ++level) {
             Json entry = Json::object();
             entry["triangles"] = count(m.triangles[level]);
@@ -176,8 +180,11 @@ void print(const Scene& scene, const Facts& facts) {
             levels += fmt::format("{}{}", level ? " > " : "", largest[i]->triangles[level]);
             if (level > 0) levels += fmt::format(" (error {:.3g})", largest[i]->errors[level]);
         }
-        fmt::print("{:12} {}: {} triangles, {} instance{}\n", i == 0 ? "meshes" : "", largest[i]->name, levels, largest[i]->instances,
-                   largest[i]->instances == 1 ? "" : "s");
+        std::string moves;
+        if (largest[i]->joints > 0) moves += fmt::format(", {} joints", largest[i]->joints);
+        if (largest[i]->targets > 0) moves += fmt::format(", {} morph target{}", largest[i]->targets, largest[i]->targets == 1 ? "" : "s");
+        fmt::print("{:12} {}: {} triangles, {} instance{}{}\n", i == 0 ? "meshes" : "", largest[i]->name, levels, largest[i]->instances,
+                   largest[i]->instances == 1 ? "" : "s", moves);
     }
     if (largest.size() > shown) fmt::print("{:12} and {} smaller ones\n", "", largest.size() - shown);
     line("materials", fmt::format("{}, {} textures", scene.materials.size(), scene.textures.size()));

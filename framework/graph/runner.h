@@ -4,6 +4,7 @@
 #include <framework/gpu/commands.h>
 #include <framework/graph/graph.h>
 #include <framework/graph/plan.h>
+#include <framework/graph/ray_body.h>
 #include <framework/image/image.h>
 #include <framework/shaders/base/frame.h>
 
@@ -14,15 +15,6 @@
 #include <vector>
 
 namespace lodestir {
-
-/// The bodies of trace(): see shaders/trace.
-enum class RayBody : std::uint8_t { packet, lane, rayQuery };
-LODESTIR_API std::string_view nameOf(RayBody body);
-/// The body for a device: the one named by `wish` ("packet", "lane", "ray_query"), or where that is empty the fastest it can run. Error where
-/// it cannot.
-LODESTIR_API RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish);
-/// Why an empty wish chooses what it does, as the end of a sentence.
-LODESTIR_API std::string whyRayBody(const gpu::DeviceFacts& device);
 
 struct RunnerOptions {
     RayBody rays = RayBody::packet;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include <framework/graph/ray_body.h>
+
+#include <framework/core/error.h>
+
+#include <algorithm>
+#include <array>
+
+namespace lodestir {
+namespace {
+
+constexpr std::array<std::string_view, 3> rayBodies{"packet", "lane", "ray_query"};
+
+bool canTracePackets(const gpu::DeviceFacts& device) { return device.isLavapipe && device.subgroupSize == 8; }
+
+}  // namespace
+
+std::string_view nameOf(RayBody body) { return rayBodies[std::size_t(body)]; }
+
+RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish) {
+    if (wish.empty()) return canTracePackets(device) ? RayBody::packet : device.rayQuery ? RayBody::rayQuery : RayBody::lane;
+    const auto found = std::ranges::find(rayBodies, wish);
+    if (found == rayBodies.end()) throw Error("no ray body \"" + wish + "\"", "known: packet, lane, ray_query");
+    const auto body = RayBody(found - rayBodies.begin());
+    if (body == RayBody::packet && !canTracePackets(device))
+        throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name, "use --rays lane");
+    if (body == RayBody::rayQuery && !device.rayQuery) throw Error("ray body \"ray_query\" needs VK_KHR_ray_query, which " + device.name + " lacks", "use --rays lane");
+    return body;
+}
+
+std::string whyRayBody(const gpu::DeviceFacts& device) {
+    switch (chooseRayBody(device, "")) {
+        case RayBody::packet: return "packet: eight lanes of the CPU share one walk, several times faster here than the driver's ray query";
+        case RayBody::rayQuery: return "ray_query: the device traces in hardware";
+        case RayBody::lane: return "lane: the device has no ray query, so each lane walks our own hierarchy";
+    }
+    return {};
+}
+
+}  // namespace lodestir
