@@ -54,9 +54,10 @@ Session::Session(const SessionOptions& options, SessionParts parts)
         for (const std::string& note : scene_->notes) log::note("{}", note);
         sceneMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
-    if (!device_) device_ = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = options.device});
+    const bool isNew = !device_;
+    if (isNew) device_ = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = options.device});
     rays_ = chooseRayBody(device_->facts(), options.rays);
-    log::note("device {}, {}; rays by {}", device_->facts().name, device_->reason(), options.rays.empty() ? whyRayBody(device_->facts()) : options.rays + ", as asked for");
+    if (isNew) log::note("device {}, {}; rays by {}", device_->facts().name, device_->reason(), options.rays.empty() ? whyRayBody(device_->facts()) : options.rays + ", as asked for");
     runner_ = std::make_unique<Runner>(*device_, *graph_, *scene_,
                                        RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice});
 }

@@ -2,6 +2,8 @@
 // Models that other people made render, given directly on the command line.
 #include "program.h"
 
+#include <framework/app/session.h>
+
 namespace lodestir::test {
 namespace {
 
@@ -34,6 +36,33 @@ TEST_F(Models, Render) {
         const auto [low, high] = std::ranges::minmax(image.values);
         EXPECT_GT(high - low, 1e-3f) << name << " shows nothing";
     }
+}
+
+// If this fails, somebody's model does not render: a crash, a value that isn't finite or a validation message. Two frames, so that what is
+// animated moves. Here models share a device and a process, because a hundred processes would take minutes.
+TEST_F(Models, EveryOneRenders) {
+    std::vector<Path> files;
+    for (const char* part : {"models", "decoded", "generator"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(assetFolder / part)) {
+            const std::string extension = entry.path().extension().string(), name = entry.path().stem().string();
+            const bool isRefused = name == "Compatibility_04" || name == "Compatibility_05";  // they require what no program may have
+            if ((extension == ".gltf" || extension == ".glb") && !isRefused) files.push_back(entry.path());
+        }
+    std::ranges::sort(files);
+    const auto device = std::make_shared<const gpu::Device>();
+    ASSERT_TRUE(device->validating());
+    for (const Path& file : files) {
+        SCOPED_TRACE(file.string());
+        SessionOptions options;
+        options.graph = sourceFolder / "graphs/path_tracer.json";
+        options.changes.scene = file;
+        options.changes.size = glm::uvec2(32, 18);
+        Session session(options, {.device = device});
+        for (int frame = 0; frame < 2; ++frame) session.runner().run();
+        EXPECT_TRUE(allFinite(session.runner().readImage(session.graph().show)));
+        EXPECT_EQ(device->validationMessages(), std::vector<std::string>{});
+    }
+    EXPECT_GE(files.size(), 90u);
 }
 
 // If this fails, containers are read differently: the same model as .gltf, with data URIs, and as .glb.
