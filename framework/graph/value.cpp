@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Parameter values: from JSON with checks, back to JSON, and set later by name.
+#include <framework/core/is_file.h>
 #include <framework/graph/graph.h>
 
 #include <fmt/format.h>
@@ -33,9 +34,9 @@ std::string readFile(const Json& value, const std::string& what, const Path& fol
     const Path named = value.asString(what);
     if (named.empty()) return {};
     const Path by = value.where().file;
-    const Path base = std::filesystem::is_regular_file(by) ? by.parent_path() : folder;
+    const Path base = isFile(by) ? by.parent_path() : folder;
     const Path whole = std::filesystem::absolute(base / named).lexically_normal();
-    if (!std::filesystem::is_regular_file(whole)) throw Error(value.where(), fmt::format("{}: there is no file {}", what, whole.string()));
+    if (!isFile(whole)) throw Error(value.where(), fmt::format("{}: there is no file {}", what, whole.string()));
     return whole.string();
 }
 

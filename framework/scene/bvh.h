@@ -2,6 +2,7 @@
 // Bounding volume hierarchies: 4-wide nodes of 64 bytes with 16-bit boxes on a per-mesh grid, built by binned SAH.
 #pragma once
 #include <framework/core/api.h>
+#include <framework/scene/box.h>
 #include <framework/shaders/world/world.h>
 
 #include <glm/glm.hpp>
@@ -49,10 +50,6 @@ inline constexpr int bvhDepth = 21, bvhStack = 64;
 LODESTIR_API std::uint32_t relocated(std::uint32_t reference, std::size_t firstNode, std::size_t firstTriangle);
 /// Appends the nodes with their references relocated; returns the relocated root. Error when a triangle's number needs more than 27 bits.
 LODESTIR_API std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle);
-
-struct Box {
-    glm::vec3 low{1e30f}, high{-1e30f};
-};
 
 /// Where one BVH lies in arrays that it shares with others (see appendNodes).
 struct BvhRange {

@@ -2,7 +2,7 @@
 #include <framework/scene/default_light.h>
 
 #include <framework/image/srgb.h>
-#include <framework/scene/bvh.h>
+#include <framework/scene/box.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/sky.h>
 
@@ -87,7 +87,7 @@ public:
     explicit Surroundings(const Scene& scene) : scene_(scene), pose_(poseAt(scene, 0)), posed_(scene.meshes.size()), boxes_(scene.meshes.size()) {
         for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
             if (scene.meshes[m].deforms()) posed_[m] = deform(scene, m, 0, pose_).positions;
-            for (const glm::vec3& p : positions(m)) boxes_[m] = {glm::min(boxes_[m].low, p), glm::max(boxes_[m].high, p)};
+            boxes_[m] = boundsOf(positions(m));
         }
     }
 

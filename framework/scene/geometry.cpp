@@ -9,9 +9,8 @@ namespace lodestir {
 namespace {
 
 MeshRecord meshRecord(const Box& box, std::size_t levels) {
-    const bool empty = box.low.x > box.high.x;
-    return {.center = empty ? glm::vec3(0) : 0.5f * (box.low + box.high),
-            .radius = empty ? 0 : 0.5f * glm::length(box.high - box.low),
+    return {.center = box.isEmpty() ? glm::vec3(0) : 0.5f * (box.low + box.high),
+            .radius = box.isEmpty() ? 0 : 0.5f * glm::length(box.high - box.low),
             .levels = std::uint32_t(levels)};
 }
 
@@ -81,8 +80,7 @@ void Geometry::pose(const Scene& scene, const Pose& pose) {
                 positions[at] = posed.positions[v];
                 vertices[at].normal = packNormal(posed.normals[v]);
                 if (!posed.tangents.empty()) vertices[at].tangent = packTangent(posed.tangents[v]);
-                box.low = glm::min(box.low, posed.positions[v]);
-                box.high = glm::max(box.high, posed.positions[v]);
+                box.add(posed.positions[v]);
             }
         }
         bounds[m] = box;

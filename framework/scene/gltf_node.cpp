@@ -173,8 +173,7 @@ private:
             level.targets.resize(targets);
             if (mesh.skin == none) level.joints.clear();
             if (mesh.skin != none && level.joints.empty()) level.joints.assign(level.positions.size(), {.weights = {1}});
-            if (mesh.deforms()) continue;
-            level.flatFaces.clear();
+            if (!mesh.deforms()) level.flatFaces.clear();
         }
     }
 

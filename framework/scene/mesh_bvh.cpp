@@ -5,12 +5,7 @@ namespace lodestir {
 
 Box boundsOf(const Mesh& mesh) {
     Box box;
-    for (const MeshLevel& level : mesh.levels) {
-        for (const glm::vec3& p : level.positions) {
-            box.low = glm::min(box.low, p);
-            box.high = glm::max(box.high, p);
-        }
-    }
+    for (const MeshLevel& level : mesh.levels) box.add(boundsOf(level.positions));
     return box;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Loads a scene and gives it what every scene needs: a camera, a light, a material.
 #include <framework/core/error.h>
+#include <framework/scene/box.h>
 #include <framework/scene/camera.h>
 #include <framework/scene/default_light.h>
 #include <framework/scene/deformation.h>
@@ -9,10 +10,10 @@
 #include <framework/scene/scene_file.h>
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -58,27 +59,23 @@ void noteUnreachableLight(Scene& scene) {
 }  // namespace
 
 std::array<glm::vec3, 2> Scene::bounds() const {
-    std::array<glm::vec3, 2> result{glm::vec3(1e30f), glm::vec3(-1e30f)};
     const Pose pose = poseAt(*this, 0);
-    const auto add = [](std::array<glm::vec3, 2>& box, glm::vec3 point) { box = {glm::min(box[0], point), glm::max(box[1], point)}; };
-    std::vector<std::array<glm::vec3, 2>> boxes(meshes.size(), result);
+    Box result;
+    std::vector<Box> boxes;
     std::vector<std::vector<glm::vec3>> posed(meshes.size());  // of what deforms
     const auto positionsOf = [&](std::size_t m) { return std::span<const glm::vec3>(meshes[m].deforms() ? posed[m] : meshes[m].levels[0].positions); };
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         if (meshes[m].deforms()) posed[m] = deform(*this, m, 0, pose).positions;
-        for (const glm::vec3& position : positionsOf(m)) add(boxes[m], position);
+        boxes.push_back(boundsOf(positionsOf(m)));
     }
     for (const Instance& instance : instances) {
         const glm::mat4 matrix = instanceMatrix(instance, pose.nodes);
-        const auto& box = boxes[instance.mesh];
         // Of a thousand trees only those at the edge of the wood count: where the whole box lies inside, so do the vertices.
-        std::array<glm::vec3, 2> around{glm::vec3(1e30f), glm::vec3(-1e30f)};
-        for (unsigned corner = 0; corner < 8; ++corner)
-            add(around, glm::vec3(matrix * glm::vec4(box[corner & 1].x, box[corner >> 1 & 1].y, box[corner >> 2].z, 1)));
-        if (glm::all(glm::lessThanEqual(result[0], around[0])) && glm::all(glm::greaterThanEqual(result[1], around[1]))) continue;
-        for (const glm::vec3& position : positionsOf(instance.mesh)) add(result, glm::vec3(matrix * glm::vec4(position, 1)));
+        const Box around = transformed(boxes[instance.mesh], matrix);
+        if (glm::all(glm::lessThanEqual(result.low, around.low)) && glm::all(glm::greaterThanEqual(result.high, around.high))) continue;
+        for (const glm::vec3& position : positionsOf(instance.mesh)) result.add(glm::vec3(matrix * glm::vec4(position, 1)));
     }
-    return result;
+    return {result.low, result.high};
 }
 
 Scene loadScene(const Path& path) {

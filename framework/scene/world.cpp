@@ -75,18 +75,6 @@ std::uint32_t textureFlags(const Texture& t) {
            wrap(t.wrapV, TEXTURE_CLAMP_V, TEXTURE_MIRROR_V);
 }
 
-Box transformed(const Box& box, const glm::mat4& matrix) {
-    if (box.low.x > box.high.x) return box;
-    Box out;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y, corner & 4 ? box.high.z : box.low.z);
-        const glm::vec3 q(matrix * glm::vec4(p, 1));
-        out.low = glm::min(out.low, q);
-        out.high = glm::max(out.high, q);
-    }
-    return out;
-}
-
 void putRows(const glm::mat4& matrix, vec4* rows) {
     for (int r = 0; r < 3; ++r) rows[r] = glm::row(matrix, r);
 }
@@ -208,8 +196,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     for (const Instance& instance : scene_.instances) {
         const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose.nodes), toObject = glm::inverse(toWorld);
         boxes.push_back(transformed(geometry_->bounds[instance.mesh], toWorld));
-        all.low = glm::min(all.low, boxes.back().low);
-        all.high = glm::max(all.high, boxes.back().high);
+        all.add(boxes.back());
         const BvhGrid& grid = geometry_->grids[instance.mesh];
         traced.push_back(traceInstance(instance.mesh, grid.base, grid.scale, toWorld));
         InstanceRecord record{};
@@ -220,7 +207,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
         record.flags = glm::determinant(glm::mat3(joints.empty() ? toWorld : joints[0])) < 0 ? INSTANCE_MIRRORED : 0;
         records.push_back(record);
     }
-    if (all.low.x <= all.high.x) {
+    if (!all.isEmpty()) {
         moving->center = 0.5f * (all.low + all.high);
         moving->radius = std::max(0.5f * glm::length(all.high - all.low), 1e-6f);
     }
