@@ -98,19 +98,19 @@ void begin(inout Path p, ivec2 pixel) {
     p.before = pixelBefore(pixel, motion(pixel));
     p.hasBefore = inside(p.before);
     p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, worldPrev()));
-    p.origins = Origins(0, 0, keepsFirstHit(hits(place(pixel))) ? 1 : 0);
+    p.origins = Origins(0, 0, keepsFirstHit(hits(place(pixel))) ? 1 : 0, 0);
 }
 
 // Takes in what the item's shift has given.
 void finish(inout Path p, ivec2 pixel, uint item) {
     bool good = p.running && p.shift.jacobian > 0;
     if (item == SCATTER || item == GATHER) {
-        Landing landing = Landing(NONE, 0, p.shift.jacobian, p.pHat, p.confidence);
+        Landing landing = Landing(NONE, 0, p.shift.jacobian, p.pHat, p.confidence, uvec3(0));
         Reservoir path = p.shift.path;
         path.W = p.W;
         if (good && item == SCATTER) {
             landing.target = p.target;
-            landing.order = atomicAdd(OutUint(passBlock().counts.address).at[p.target], 1);
+            landing.order = atomicAdd(OutCounts(passBlock().counts.address).at[p.target], 1);
             storeShifted(place(pixel), path);
             storeShiftedSamples(place(pixel), p.shift.hit);
         } else if (good) {
@@ -176,10 +176,10 @@ bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rul
 
 void pathEnd(Path p, World w, ivec2 pixel) {
     uint items = pathItems();
-    Landing nowhere = Landing(NONE, 0, 0, 0, 0);
+    Landing nowhere = Landing(NONE, 0, 0, 0, 0, uvec3(0));
     if (items == 0) {
         storeLandings(place(pixel), nowhere);
-        p.origins = Origins(0, 0, 0);
+        p.origins = Origins(0, 0, 0, 0);
     } else {
         finish(p, pixel, items - 1);
     }
