@@ -32,18 +32,18 @@ layout(push_constant, scalar) uniform Push {
     uint anyHit;
 } push;
 
-// Tiles of 8x8 pixels are fetched from a counter, as trace/driver.glsl does on a CPU driver.
-layout(local_size_x = 8) in;
+// Tiles of 8x8 pixels are fetched from a counter by each subgroup, as trace/driver.glsl does on a CPU driver.
+layout(local_size_x = 64) in;
 void main() {
     World w = push.world.value;
     uvec2 tiles = push.size / 8u;
     for (;;) {
         uint tile = 0u;
-        if (gl_LocalInvocationIndex == 0u) tile = atomicAdd(push.counter.value, 1u);
-        tile = subgroupBroadcast(tile, 0u);
+        if (subgroupElect()) tile = atomicAdd(push.counter.value, 1u);
+        tile = subgroupBroadcastFirst(tile);
         if (tile >= tiles.x * tiles.y) break;
-        for (uint row = 0u; row < 8u; ++row) {
-            uint place = row * 8u + gl_LocalInvocationIndex;
+        for (uint first = 0u; first < 64u; first += gl_SubgroupSize) {
+            uint place = first + gl_SubgroupInvocationID;
             uvec2 inBlock = uvec2(place & 3u, (place >> 2) & 1u), block = uvec2((place >> 3) & 1u, place >> 4);
             uvec2 pixel = uvec2(tile % tiles.x, tile / tiles.x) * 8u + block * uvec2(4u, 2u) + inBlock;
             uint i = pixel.y * push.size.x + pixel.x;

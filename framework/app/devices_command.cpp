@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// `lodestir devices`: what the machine's Vulkan devices have, and what is done without the rest.
+// `lodestir devices`: what the machine's Vulkan devices have, what is done without the rest, and whether it works.
 #include <framework/app/devices_command.h>
 
+#include <framework/app/device_test.h>
+#include <framework/app/validators.h>
 #include <framework/core/error.h>
 #include <framework/core/json.h>
 #include <framework/core/log.h>
@@ -19,9 +21,8 @@ namespace lodestir {
 
 namespace {
 
-struct Options {
-    std::string device;
-    bool json = false;
+struct Options : DeviceTestOptions {
+    bool test = false;
 };
 
 /// What a command that renders will say of this device.
@@ -97,7 +98,10 @@ void addDevices(CLI::App& app, std::function<int()>& run) {
     const auto options = std::make_shared<Options>();
     command->add_option("--device", options->device, "index or part of the name: marks what this choice means");
     command->add_flag("--json", options->json, "prints JSON");
-    command->callback([options, &run] { run = [options] { return listDevices(*options); }; });
+    CLI::Option* test = command->add_flag("--test", options->test, "instead of the list: runs a small kernel and a small frame on the chosen device, apart, and says whether they work");
+    command->add_option("--rays", options->rays, "with --test, how rays are traced: packet, lane or ray_query")->check(checkNotEmpty)->needs(test);
+    command->add_option("--limit", options->limit, "with --test, seconds that each may take")->check(checkPositive)->needs(test)->capture_default_str();
+    command->callback([options, &run] { run = [options] { return options->test ? testDevice(*options) : listDevices(*options); }; });
 }
 
 }  // namespace lodestir

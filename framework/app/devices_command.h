@@ -11,7 +11,8 @@ class App;
 
 namespace lodestir {
 
-/// Adds the subcommand; when it is chosen, `run` is what it does and returns the exit status: 0 when there is a usable device, else 1.
+/// Adds the subcommand; when it is chosen, `run` is what it does and returns the exit status: 0 when there is a usable device
+/// (with --test: when it works), else 1.
 LODESTIR_API void addDevices(CLI::App& app, std::function<int()>& run);
 
 }  // namespace lodestir

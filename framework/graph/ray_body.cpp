@@ -18,12 +18,13 @@ bool canTracePackets(const gpu::DeviceFacts& device) { return device.isLavapipe 
 std::string_view nameOf(RayBody body) { return rayBodies[std::size_t(body)]; }
 
 RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish) {
-    if (wish.empty()) return canTracePackets(device) ? RayBody::packet : device.rayQuery ? RayBody::rayQuery : RayBody::lane;
+    if (wish.empty() && canTracePackets(device)) return RayBody::packet;
+    if (wish.empty()) return device.rayQuery && device.type != "cpu" ? RayBody::rayQuery : RayBody::lane;
     const auto found = std::ranges::find(rayBodies, wish);
     if (found == rayBodies.end()) throw Error("no ray body \"" + wish + "\"", "known: packet, lane, ray_query");
     const auto body = RayBody(found - rayBodies.begin());
     if (body == RayBody::packet && !canTracePackets(device))
-        throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name, "use --rays lane");
+        throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name + " with subgroups of " + std::to_string(device.subgroupSize), "use --rays lane");
     if (body == RayBody::rayQuery && !device.rayQuery) throw Error("ray body \"ray_query\" needs VK_KHR_ray_query, which " + device.name + " lacks", "use --rays lane");
     return body;
 }
@@ -31,10 +32,13 @@ RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish) {
 std::string whyRayBody(const gpu::DeviceFacts& device) {
     switch (chooseRayBody(device, "")) {
         case RayBody::packet: return "packet: eight lanes of the CPU share one walk, several times faster here than the driver's ray query";
-        case RayBody::rayQuery: return "ray_query: the device traces in hardware";
-        case RayBody::lane: return "lane: the device has no ray query, so each lane walks our own hierarchy";
+        case RayBody::rayQuery: return "ray_query: the driver traces, on most GPUs in hardware";
+        case RayBody::lane: break;
     }
-    return {};
+    const std::string walk = "each lane walks our own hierarchy";
+    if (!device.rayQuery) return "lane: the device has no ray query, so " + walk;
+    if (!device.isLavapipe) return "lane: " + walk + ", because ray queries of a CPU are slow";
+    return "lane: " + walk + ", several times faster here than the driver's ray query; packets would need 8 lanes a subgroup, not " + std::to_string(device.subgroupSize);
 }
 
 }  // namespace lodestir

@@ -16,13 +16,7 @@
 // pass.glsl gives `push` (base/frame.h) and countRays.
 #include "trace/trace.glsl"
 
-#ifdef TRACE_PERSISTENT
-// A CPU driver splits workgroups over its threads beforehand, whatever they cost; so there are as many as threads, of one subgroup each,
-// and they fetch 8x8 pixels at a time.
-layout(local_size_x = 8) in;
-#else
 layout(local_size_x = 64) in;
-#endif
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer DriverCounter { uint value; };
 
@@ -82,13 +76,15 @@ void main() {
     if (push.warm != 0u) return;
     uvec2 tiles = driverTiles();
 #ifdef TRACE_PERSISTENT
+    // A CPU driver splits workgroups over its threads beforehand, whatever they cost; so there are as many as threads, and they fetch tiles.
+    // Each subgroup fetches its own: such a driver runs one to its end before it begins the workgroup's next, which finds none left.
     for (;;) {
         uint tile = 0u;
-        if (gl_LocalInvocationIndex == 0u) tile = atomicAdd(DriverCounter(push.tileCounter).value, 1u);
-        tile = subgroupBroadcast(tile, 0u);
+        if (subgroupElect()) tile = atomicAdd(DriverCounter(push.tileCounter).value, 1u);
+        tile = subgroupBroadcastFirst(tile);
         if (tile >= tiles.x * tiles.y) break;
-        for (uint row = 0u; row < 8u; ++row)
-            driverWalk(driverPixel(uvec2(tile % tiles.x, tile / tiles.x), row * 8u + gl_LocalInvocationIndex));
+        for (uint first = 0u; first < 64u; first += gl_SubgroupSize)
+            driverWalk(driverPixel(uvec2(tile % tiles.x, tile / tiles.x), first + gl_SubgroupInvocationID));
     }
 #else
     driverWalk(driverPixel(gl_WorkGroupID.xy, gl_LocalInvocationIndex));

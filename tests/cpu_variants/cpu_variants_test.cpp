@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// On this CPU made to look like lesser ones, graphs end and their images are those of the plain run.
+#include "../end_to_end/program.h"
+
+#include <framework/gpu/device.h>
+
+#include <ostream>
+
+namespace lodestir::test {
+namespace {
+
+struct Variant {
+    std::string name;
+    Environment environment;
+};
+
+/// Vectors of 128 bits, as on ARM and on x86 before AVX.
+Variant fourLanes() { return {"four_lanes", {{"LP_NATIVE_VECTOR_WIDTH", "128"}}}; }
+/// An AMD Zen 3: reads of different addresses become branches there, and reads of one address may happen where a branch forbids them.
+Variant withoutAvx512() { return {"without_avx512", {{"LD_PRELOAD", CPU_NAME_LIBRARY}, {"CPU_NAME", "znver3"}, {"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}}}; }
+
+struct Case {
+    Variant (*variant)();
+    const char *graph, *scene, *show;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.variant().name << ", " << c.graph; }
+
+/// Why a variant cannot be had on this machine; empty where it can.
+std::string whyNot(const Variant& variant) {
+    const auto devices = gpu::listDevices();
+    if (std::ranges::none_of(devices, &gpu::DeviceFacts::usable)) return "no usable Vulkan device";
+    const gpu::DeviceFacts& device = devices[gpu::chooseDevice(devices, "")];
+    if (!device.isLavapipe) return "the device is " + device.name + ", not lavapipe";
+    if (variant.name == "four_lanes") {
+        if (device.subgroupSize == 4) return "the CPU itself has four lanes a subgroup: all other tests are this one";
+        const Output output = runProcess({LODESTIR_BINARY, "devices", "--json"}, variant.environment);
+        for (const auto& facts : OrderedJson::parse(output.out))
+            if (facts["name"].get<std::string>().starts_with("llvmpipe") && facts["subgroupSize"] == 4) return {};
+        return "the driver does not take its number of lanes from LP_NATIVE_VECTOR_WIDTH";
+    }
+#if defined(__x86_64__)
+    if (!__builtin_cpu_supports("avx512f")) return "the CPU itself has no AVX-512: all other tests are this one";
+    Environment environment = variant.environment;
+    environment.emplace_back("MESA_SHADER_CACHE_DISABLE", "true");  // or nothing is compiled, and no name asked for
+    const Output output = runProcess({std::string(LODESTIR_BUILD_DIR) + "/tests/gpu_runner", (sourceFolder / "framework/shaders/base/pack.test.comp").string()}, environment);
+    if (output.err.find("cpu_name: asked") == std::string::npos) return "the driver's compiler does not ask for the CPU's name where a preloaded library can answer";
+    return {};
+#else
+    return "only an x86 CPU can play another";
+#endif
+}
+
+class CpuVariants : public ProgramTest, public testing::WithParamInterface<Case> {
+protected:
+    /// The second frame, which has a history.
+    ImageData secondFrame(const std::string& out, Environment environment) {
+        const Case& c = GetParam();
+        environment.emplace_back("LODESTIR_VALIDATION", "1");
+        const Output output = runProcess({LODESTIR_BINARY, "run", (sourceFolder / "graphs" / (std::string(c.graph) + ".json")).string(), "--scene",
+                                          (sourceFolder / "scenes" / (std::string(c.scene) + ".json")).string(), "--size", "32x18", "--frames", "2",
+                                          "--show", c.show, "--check-nan", "--out", (folder / out).string()},
+                                         environment, std::chrono::seconds(100));
+        EXPECT_FALSE(output.timedOut) << "it hangs, or the driver compiles for minutes\n" << output.err;
+        EXPECT_EQ(output.exitCode, 0) << "signal " << output.signal << "\n" << output.err;
+        EXPECT_EQ(output.err.find("validation"), std::string::npos) << output.err;
+        return HasFailure() ? ImageData() : readExr(folder / out / (std::string(c.show) + ".1.exr"));
+    }
+};
+
+// Both runs draw the same random numbers, and rounding, which differs, tips a choice in few pixels. A tile that is left out or done
+// twice is a twelfth of the image, a lane's share an eighth or a quarter: far outside of both limits.
+TEST_P(CpuVariants, ShowThePlainImage) {
+    Variant variant = GetParam().variant();
+    if (const std::string reason = whyNot(variant); !reason.empty()) GTEST_SKIP() << reason;
+    const ImageData plain = secondFrame("plain", {});
+    // A cache of its own, because the driver takes kernels for the same whatever the number of lanes and the name of the CPU.
+    const char* cache = std::getenv("MESA_SHADER_CACHE_DIR");
+    variant.environment.emplace_back("MESA_SHADER_CACHE_DIR", Path(cache ? cache : LODESTIR_BUILD_DIR) / variant.name);
+    const ImageData other = secondFrame("other", variant.environment);
+    if (HasFailure()) return;
+
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < plain.values.size(); ++i) differ += std::abs(plain.values[i] - other.values[i]) > 1e-3f * (1 + std::abs(plain.values[i]));
+    std::printf("energy %.6f of the plain image's, %zu of %zu values differ\n", meanOf(other) / meanOf(plain), differ, plain.values.size());
+    EXPECT_GT(meanOf(plain), 0);
+    EXPECT_NEAR(meanOf(other) / meanOf(plain), 1, 0.02);
+    EXPECT_LE(differ, plain.values.size() / 20);
+}
+
+// One line a graph. Without AVX-512 restir_lod is left out: the driver compiles its kernels for more than two minutes there.
+INSTANTIATE_TEST_SUITE_P(FourLanes, CpuVariants,
+                         testing::Values(Case{fourLanes, "path_tracer", "cornell", "trace"},
+                                         Case{fourLanes, "restir_pt", "cornell", "shade"},
+                                         Case{fourLanes, "restir_lod", "cube", "shade"}));
+INSTANTIATE_TEST_SUITE_P(WithoutAvx512, CpuVariants,
+                         testing::Values(Case{withoutAvx512, "path_tracer", "cornell", "trace"},
+                                         Case{withoutAvx512, "restir_pt", "cornell", "shade"}));
+
+}  // namespace
+}  // namespace lodestir::test
+
+/// A test of which nothing could be tried is skipped, also for ctest.
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    const int code = RUN_ALL_TESTS();
+    const auto& tests = *testing::UnitTest::GetInstance();
+    return code == 0 && tests.skipped_test_count() > 0 && tests.skipped_test_count() == tests.test_to_run_count() ? 77 : code;
+}
