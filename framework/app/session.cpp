@@ -9,6 +9,7 @@
 #include <charconv>
 #include <chrono>
 #include <limits>
+#include <optional>
 
 namespace lodestir {
 glm::uvec2 readSize(const std::string& option, const std::string& text) {
@@ -40,6 +41,18 @@ void SessionOptions::addTo(Command& command) {
     command.flag("--count-steps", countSteps, "count the nodes that rays visit");
 }
 
+namespace {
+
+void prepareWithProgress(Runner& runner) {
+    std::optional<log::Progress> progress;
+    runner.prepare([&](std::size_t done, std::size_t all) {
+        if (!progress) progress.emplace("compiling shaders, which the driver keeps for the next start", all);
+        if (done > 0) progress->advance();
+    });
+}
+
+}  // namespace
+
 Session::Session(const SessionOptions& options, SessionParts parts)
     : device_(std::move(parts.device)), libraries_(options.passes), scene_(std::move(parts.scene)) {
     libraries_.addBuiltIn("scene", scenePlugin());
@@ -59,6 +72,8 @@ Session::Session(const SessionOptions& options, SessionParts parts)
     if (isNew) log::note("device {}, {}; rays by {}", device_->facts().name, device_->reason(), options.rays.empty() ? whyRayBody(device_->facts()) : options.rays + ", as asked for");
     runner_ = std::make_unique<Runner>(*device_, *graph_, *scene_,
                                        RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice});
+    if (parts.compiled) runner_->prepare(parts.compiled);
+    else prepareWithProgress(*runner_);
 }
 
 }  // namespace lodestir

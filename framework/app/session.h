@@ -35,6 +35,8 @@ struct SessionParts {
     std::shared_ptr<Scene> scene;        ///< where it is of the graph's scene file
     std::function<void(Graph&)> adjust;  ///< sets parameters before anything is made of the graph
     double slice = 0;                    ///< RunnerOptions::slice
+    /// Told how many of how many shaders are ready; empty: a line of progress on stderr.
+    std::function<void(std::size_t done, std::size_t all)> compiled;
 };
 
 class Session {

@@ -83,6 +83,10 @@ void ViewSession::build() {
     attempt([&] {
         try {
             SessionParts parts{.device = device_, .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr, .adjust = [this](Graph& graph) { adjust(graph); }, .slice = 20};
+            parts.compiled = [this](std::size_t done, std::size_t all) {
+                status_.busy = fmt::format("compiling shader {} of {}", std::min(done + 1, all), all);
+                tell();
+            };
             SessionOptions options = options_;
             if (!shown_.empty()) options.dumps.push_back(shown_);
             std::unique_ptr<Session> next;
@@ -97,6 +101,7 @@ void ViewSession::build() {
                 if (next->scene().file == session_->scene().file) scenePath_ = std::exchange(next->sharedScene()->camera, session_->scene().camera);
                 else scenePath_.reset();
             }
+            status_.busy = "building";
             if (session_) next->runner().setFrame(session_->runner().nextFrame());
             const auto start = Clock::now();
             const FrameReport report = next->runner().run();

@@ -190,7 +190,7 @@ Device::Device(std::nullptr_t) : messages_(std::make_unique<Messages>()) {}
 
 Device::Device(const DeviceOptions& options) : Device(nullptr) {
     const char* environment = std::getenv("LODESTIR_VALIDATION");
-    validating_ = options.validation || (environment && std::string_view(environment) == "1");
+    validating_ = options.validation.value_or(environment && std::string_view(environment) == "1");
     if (validating_ && !hasLayer(validationLayer))
         throw Error(fmt::format("{} is not installed", validationLayer), "install the Vulkan validation layers, or run without validation");
 

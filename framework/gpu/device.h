@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,7 @@ struct DeviceFacts {
 
 struct DeviceOptions {
     std::string choice;       ///< index, or part of a name (case-insensitive); empty: the first usable discrete, then integrated, then CPU
-    bool validation = false;  ///< also on when the environment has LODESTIR_VALIDATION=1
+    std::optional<bool> validation;  ///< unset: on when the environment has LODESTIR_VALIDATION=1
     std::vector<std::string> windowExtensions;  ///< instance extensions that a window needs; not empty: VK_KHR_swapchain is on, too
 };
 

@@ -90,7 +90,7 @@ private:
         push.rows = rows;
         std::copy(arguments.begin(), arguments.end(), &push.arguments.x);
         glm::uvec2 groups = groupCount(row ? glm::uvec2(rows, 1) : glm::uvec2(extent.x, rows));
-        if (kernel.traces && s_.kernels_.persistent()) {
+        if (kernel.traces && usesPersistentGroups(s_.device_)) {
             if (work_.dispatches == maxDispatches) throw Error("more than " + std::to_string(maxDispatches) + " tracing dispatches in one frame");
             push.tileCounter = s_.counters_.address() + counterStride * work_.dispatches++;
             groups = {std::uint32_t(workerCount()), 1};

@@ -212,6 +212,12 @@ Runner::Runner(const gpu::Device& device, Graph& graph, const Scene& scene, Runn
     : state_(std::make_unique<State>(device, graph, scene, std::move(options))) {}
 Runner::~Runner() = default;
 
+void Runner::prepare(const std::function<void(std::size_t, std::size_t)>& progress) {
+    std::vector<int> nodes;
+    for (const PlanStep& step : state_->plan_.steps) nodes.push_back(step.node);
+    state_->kernels_.prepare(nodes, progress);
+}
+
 FrameReport Runner::run() { return state_->run(); }
 std::uint32_t Runner::nextFrame() const { return state_->frame_; }
 void Runner::setFrame(std::uint32_t frame) { state_->frame_ = frame; }

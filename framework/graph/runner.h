@@ -9,6 +9,7 @@
 #include <framework/shaders/base/frame.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -57,6 +58,9 @@ public:
     Runner(const gpu::Device& device, Graph& graph, const Scene& scene, RunnerOptions options);
     ~Runner();
 
+    /// Makes the plan's shaders ready, several at once where the driver compiles on the CPU; what isn't ready is made when a frame needs it.
+    /// `progress` is told how many of how many are ready.
+    void prepare(const std::function<void(std::size_t done, std::size_t all)>& progress);
     /// Runs the next frame and waits for it. Parameters changed since the last frame take effect.
     FrameReport run();
     std::uint32_t nextFrame() const;

@@ -198,7 +198,9 @@ StagedGraph Stage::buildReference(std::size_t scene, int samples) {
 
 std::unique_ptr<Runner> Stage::makeRunner(StagedGraph& staged, std::size_t index) {
     open();
-    return std::make_unique<Runner>(*device_, staged.graph, scene(index), RunnerOptions{.rays = rays_, .pinned = {staged.port}});
+    auto runner = std::make_unique<Runner>(*device_, staged.graph, scene(index), RunnerOptions{.rays = rays_, .pinned = {staged.port}});
+    runner->prepare([](std::size_t, std::size_t) {});
+    return runner;
 }
 
 ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) const {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// What a kernel is compiled from: SPIR-V and constants.
+#include <framework/graph/kernel_source.h>
+
+#include <framework/gpu/commands.h>
+#include <framework/gpu/heap.h>
+#include <framework/gpu/include_closure.h>
+#include <framework/graph/header.h>
+#include <framework/shaders/base/frame.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+namespace lodestir {
+namespace {
+
+/// Whatever address is read there leads back to it: the initialisers of a shader's globals run before its main() can return.
+gpu::Buffer idleMemory(const gpu::Device& device) {
+    constexpr std::size_t bytes = 1 << 16;  // more than any block or handle takes
+    gpu::Buffer memory(device, bytes, gpu::Memory::upload, "idle block");
+    const std::vector<std::uint64_t> words(bytes / sizeof(std::uint64_t), memory.address());
+    std::memcpy(memory.mapped(), words.data(), bytes);
+    return memory;
+}
+
+bool isDriver(const Path& file) { return file.filename() == "driver.glsl" && file.parent_path().filename() == "trace"; }
+
+}  // namespace
+
+Hash KernelSource::hash() const {
+    Hash hash;
+    hash.add(std::as_bytes(std::span(spirv.words))).add(std::as_bytes(std::span(constants)));
+    return hash;
+}
+
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, int node, std::string_view shader, const RunnerOptions& options) {
+    const GraphNode& n = graph.nodes[std::size_t(node)];
+    const auto start = std::chrono::steady_clock::now();
+    gpu::ShaderSource source;
+    source.file = shaderOf(*n.plugin, shader);
+    source.folders = includeFolders(*n.plugin);
+    source.generated["pass.glsl"] = passHeader(graph, node);
+    source.texelReads = device.heap() && device.heap()->isWhole();
+    constexpr const char* bodies[] = {"TRACE_PACKET", "TRACE_LANE", "TRACE_RAY_QUERY"};
+    source.defines.emplace_back(bodies[std::size_t(options.rays)], "1");
+    if (usesPersistentGroups(device)) source.defines.emplace_back("TRACE_PERSISTENT", "1");
+    if (options.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
+    if (options.countSteps) source.defines.emplace_back("COUNT_STEPS", "1");
+
+    KernelSource kernel{.name = n.name + ": " + std::string(shader)};
+    const gpu::IncludeClosure closure(source.file, source.folders, source.generated);
+    kernel.traces = std::ranges::any_of(closure.files(), isDriver);
+    if (kernel.traces) source.defines.emplace_back("TRACE_DRIVER", "1");
+    kernel.readsTexels = source.texelReads;
+    kernel.spirv = gpu::compileShader(source);
+    const BlockLayout layout = blockLayout(*n.pass);
+    for (std::size_t i = 0; i < n.pass->parameters.size(); ++i)
+        if (layout.constants[i]) kernel.constants.push_back({*layout.constants[i], bitsOf(*n.pass->parameters[i])});
+    kernel.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return kernel;
+}
+
+PipelineMaker::PipelineMaker(const gpu::Device& device) : device_(device), idle_(idleMemory(device)) {}
+
+gpu::Pipeline PipelineMaker::make(const KernelSource& source) const {
+    gpu::Pipeline pipeline(device_, source.spirv, source.constants, sizeof(Push), source.name);
+    Push push{};
+    push.warm = 1;
+    push.block = idle_.address();
+    gpu::runOnce(device_, [&](gpu::Commands& commands) { commands.dispatch(pipeline, std::as_bytes(std::span(&push, 1)), 1); });
+    return pipeline;
+}
+
+}  // namespace lodestir

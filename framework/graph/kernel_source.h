@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a kernel is compiled from: SPIR-V and constants. The driver makes a pipeline of it, and a CPU driver compiles at the first dispatch.
+#pragma once
+#include <framework/gpu/pipeline.h>
+#include <framework/graph/graph.h>
+#include <framework/graph/runner.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lodestir {
+
+struct KernelSource {
+    std::string name;           ///< pass and shader
+    gpu::Spirv spirv;
+    std::vector<gpu::Specialization> constants;
+    bool traces = false;        ///< includes trace/driver.glsl
+    bool readsTexels = false;   ///< right only while all memory lies in the device's heap
+    double milliseconds = 0;    ///< from GLSL
+
+    Hash hash() const;  ///< of what the driver sees
+};
+
+/// Reads and compiles a shader of a node for a device. Error with the compiler's messages.
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, int node, std::string_view shader, const RunnerOptions& options);
+
+/// Persistent workgroups: a few that fetch tiles from a counter, because a CPU driver spreads workgroups over its threads beforehand.
+inline bool usesPersistentGroups(const gpu::Device& device) { return device.facts().type == "cpu"; }
+
+/// Makes pipelines ready on one device: by a dispatch that returns at once, before which nothing of the graph is there yet.
+class PipelineMaker {
+public:
+    explicit PipelineMaker(const gpu::Device& device);
+    gpu::Pipeline make(const KernelSource& source) const;
+
+private:
+    const gpu::Device& device_;
+    gpu::Buffer idle_;  ///< block, ports and handles of that dispatch
+};
+
+}  // namespace lodestir
