@@ -8,6 +8,7 @@
 #include <framework/core/json.h>
 #include <framework/core/log.h>
 #include <framework/gpu/device.h>
+#include <framework/gpu/jit_cpu.h>
 #include <framework/graph/runner.h>
 
 #include <CLI/CLI.hpp>
@@ -27,7 +28,8 @@ struct Options : DeviceTestOptions {
 
 /// What a command that renders will say of this device.
 std::string reasonOf(const gpu::DeviceFacts& facts, const std::vector<gpu::DeviceFacts>& devices, const std::string& choice) {
-    return fmt::format("{}; rays by {}", gpu::whyDevice(devices, choice), whyRayBody(facts));
+    const std::string records = facts.isLavapipe ? "; records are read " + gpu::readsText(facts.readsTexels) : "";
+    return fmt::format("{}; rays by {}{}", gpu::whyDevice(devices, choice), whyRayBody(facts), records);
 }
 
 Json toJson(const gpu::DeviceFacts& facts, bool chosen) {

@@ -78,13 +78,12 @@ Gathers gathersOfCpu() {
     return hasAvx2() && willAskUs ? Gathers::named : Gathers::none;
 }
 
-std::string gathersText(Gathers gathers) {
-    switch (gathers) {
-    case Gathers::fast: return "by the CPU's gathers";
-    case Gathers::named: return "by the CPU's gathers, which its compiler has to be told to use";
-    case Gathers::none: return "as texels, because the CPU has no gathers";
-    }
-    return {};
+std::string readsText(bool texels) {
+    const Gathers gathers = gathersOfCpu();
+    if (texels) return gathers == Gathers::none ? "by texel: this CPU cannot gather" : "by texel, as LODESTIR_RECORDS asks for";
+    if (gathers == Gathers::fast) return "by the CPU's gathers";
+    if (gathers == Gathers::named) return "by the CPU's gathers, which its compiler had to be told to use";
+    return "lane by lane, which is slow and compiles for minutes";
 }
 
 }  // namespace lodestir::gpu

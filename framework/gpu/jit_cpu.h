@@ -13,7 +13,7 @@ enum class Gathers {
 };
 /// Of this process's CPU. To be asked once the driver is loaded (vkEnumeratePhysicalDevices).
 Gathers gathersOfCpu();
-/// The same as the end of a sentence.
-std::string gathersText(Gathers gathers);
+/// How lavapipe's kernels read records here, as the end of a sentence; `texels`: DeviceFacts::readsTexels.
+std::string readsText(bool texels);
 
 }  // namespace lodestir::gpu

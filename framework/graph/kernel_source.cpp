@@ -2,15 +2,19 @@
 // What a kernel is compiled from: SPIR-V and constants.
 #include <framework/graph/kernel_source.h>
 
+#include <framework/core/error.h>
 #include <framework/gpu/commands.h>
+#include <framework/gpu/early_reads.h>
 #include <framework/gpu/heap.h>
 #include <framework/gpu/include_closure.h>
 #include <framework/graph/header.h>
+#include <framework/scene/scene_facts.h>
 #include <framework/shaders/base/frame.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <iterator>
 
 namespace lodestir {
 namespace {
@@ -34,7 +38,7 @@ Hash KernelSource::hash() const {
     return hash;
 }
 
-KernelSource kernelSource(const gpu::Device& device, const Graph& graph, int node, std::string_view shader, const RunnerOptions& options) {
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options) {
     const GraphNode& n = graph.nodes[std::size_t(node)];
     const auto start = std::chrono::steady_clock::now();
     gpu::ShaderSource source;
@@ -44,6 +48,7 @@ KernelSource kernelSource(const gpu::Device& device, const Graph& graph, int nod
     source.texelReads = device.heap() && device.heap()->isWhole();
     constexpr const char* bodies[] = {"TRACE_PACKET", "TRACE_LANE", "TRACE_RAY_QUERY"};
     source.defines.emplace_back(bodies[std::size_t(options.rays)], "1");
+    std::ranges::move(sceneFacts(scene), std::back_inserter(source.defines));
     if (usesPersistentGroups(device)) source.defines.emplace_back("TRACE_PERSISTENT", "1");
     if (options.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
     if (options.countSteps) source.defines.emplace_back("COUNT_STEPS", "1");
@@ -54,6 +59,9 @@ KernelSource kernelSource(const gpu::Device& device, const Graph& graph, int nod
     if (kernel.traces) source.defines.emplace_back("TRACE_DRIVER", "1");
     kernel.readsTexels = source.texelReads;
     kernel.spirv = gpu::compileShader(source);
+    if (gpu::touchesMemoryEarly(kernel.spirv.words))
+        throw Error({source.file.string(), 0, 0}, "the shader reads an array, or writes, before main() can return while the driver only compiles",
+                    "begin main() with `if (skip()) return;`, and let no global's initialiser read what isn't a single struct");
     const BlockLayout layout = blockLayout(*n.pass);
     for (std::size_t i = 0; i < n.pass->parameters.size(); ++i)
         if (layout.constants[i]) kernel.constants.push_back({*layout.constants[i], bitsOf(*n.pass->parameters[i])});

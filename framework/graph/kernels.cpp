@@ -67,7 +67,7 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
     parallelFor(keys.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             try {
-                sources[i] = kernelSource(device_, graph_, keys[i].first, keys[i].second, options_);
+                sources[i] = kernelSource(device_, graph_, scene_, keys[i].first, keys[i].second, options_);
             } catch (const Error&) {}  // told when it is asked for, if it is
         }
     });
@@ -82,7 +82,7 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
 }
 
 Kernel Kernels::make(int node, std::string_view shader) {
-    const KernelSource source = kernelSource(device_, graph_, node, shader, options_);
+    const KernelSource source = kernelSource(device_, graph_, scene_, node, shader, options_);
     const auto start = std::chrono::steady_clock::now();
     gpu::Pipeline pipeline = maker_.make(source);
     const double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

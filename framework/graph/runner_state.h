@@ -25,7 +25,7 @@ public:
           scene_(scene),
           options_(std::move(options)),
           plan_(makePlan(graph, options_.pinned, {.allBarriers = options_.allBarriers})),
-          kernels_(device, graph, options_),
+          kernels_(device, graph, scene, options_),
           commands_(device, std::uint32_t(2 * plan_.steps.size() + 4) + (options_.slice > 0 ? 2 * maxPieces : 0)),
           slices_(options_.slice),
           size_(graph.description.size),

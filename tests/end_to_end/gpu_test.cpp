@@ -2,6 +2,7 @@
 // The GPU layer on a real device: memory there and back, addresses, specialization, 64-bit atomics, timestamps, errors.
 #include <framework/core/error.h>
 #include <framework/gpu/commands.h>
+#include <framework/graph/kernel_source.h>
 
 #include <gtest/gtest.h>
 
@@ -157,6 +158,100 @@ TEST_F(GpuTest, WrongUseIsToldInWords) {
     std::byte out[512];
     EXPECT_NE(errorOf([&] { readBuffer(*device_, small, 0, out); }).find("512"), std::string::npos);
     commands.submit();
+}
+
+const char* const reads = R"(#version 460
+#extension GL_EXT_scalar_block_layout : enable
+layout(local_size_x = 8) in;
+struct Inner { vec2 x; uint y; };
+struct Record { uint a; vec3 b; mat3 m; uint64_t c; Inner inner[3]; ivec2 d; uint e[2]; };  // 29 words
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Bytes4 { uint at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Bytes8 { vec2 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Bytes12 { vec3 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Bytes16 { uvec4 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Bytes24 { mat2x3 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Bytes32 { Inner at[][2]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Records { Record at[]; };
+layout(buffer_reference, scalar) buffer Out { uint at[]; };
+layout(push_constant, scalar) uniform Push { Out result; uint64_t data; } push;
+uint n = 0u;
+void put(uint v) { push.result.at[gl_GlobalInvocationID.x * 256u + n++] = v; }
+void put(vec3 v) { put(floatBitsToUint(v.x)); put(floatBitsToUint(v.y)); put(floatBitsToUint(v.z)); }
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    put(Bytes4(push.data).at[7u * i + 1u]);
+    put(floatBitsToUint(Bytes8(push.data).at[3u * i].y));
+    put(vec3(Bytes8(push.data).at[i + 1u], 0));
+    put(Bytes12(push.data).at[i]);
+    put(Bytes16(push.data).at[i][i & 3u]);
+    put(Bytes24(push.data).at[i][i & 1u]);
+    put(Bytes16(push.data).at[2].z);
+    Record r = Records(push.data).at[i + 2u];
+    put(r.a);
+    put(r.b);
+    for (int k = 0; k < 3; ++k) put(r.m[k]);
+    put(uint(r.c));
+    put(uint(r.c >> 32));
+    put(r.inner[i % 3u].y);
+    put(floatBitsToUint(Records(push.data).at[i].inner[i % 3u].x.y));
+    put(floatBitsToUint(Records(push.data).at[i].m[i % 3u][i % 2u]));
+    put(uint(Records(push.data).at[3].d.y));
+    put(Records(push.data).at[i].e[i & 1u]);
+}
+)";
+
+// Kernels that read by texel, as on CPUs without gathers, get the same numbers as by address, however records are laid out.
+TEST(TexelReadsTest, GiveTheNumbersOfReadsByAddress) {
+    setenv("LODESTIR_RECORDS", "texels", 1);
+    const std::vector<DeviceFacts> devices = listDevices();
+    const bool can = std::ranges::any_of(devices, [](const DeviceFacts& d) { return d.usable() && d.readsTexels; });
+    std::optional<Device> device;
+    if (can) device.emplace(DeviceOptions{.choice = "llvmpipe", .validation = true});
+    unsetenv("LODESTIR_RECORDS");
+    if (!can) GTEST_SKIP() << "no lavapipe with VK_EXT_external_memory_host: nothing is read by texel here";
+    const Path file = std::filesystem::temp_directory_path() / ("lodestir_texel_reads_" + std::to_string(getpid()) + ".comp");
+    writeFile(file, reads);
+    std::vector<std::uint32_t> data(4096);
+    for (std::uint32_t i = 0; i < data.size(); ++i) data[i] = 0x3f000000u + 7919u * i;
+    const Buffer memory = makeBuffer(*device, std::span<const std::uint32_t>(data), "data");
+    std::vector<std::vector<std::uint32_t>> results;
+    for (const bool texels : {false, true}) {
+        const Pipeline pipeline(*device, compileShader({file, {}, {}, {}, texels}), {}, 16, "reads");
+        const std::vector<std::uint32_t> nothing(8 * 256, 0xabcdu);
+        const Buffer out = makeBuffer(*device, std::span<const std::uint32_t>(nothing), "out");
+        const std::uint64_t push[] = {out.address(), memory.address()};
+        runOnce(*device, [&](Commands& commands) { commands.dispatch(pipeline, std::as_bytes(std::span(push)), 1); });
+        results.emplace_back(8 * 256);
+        readBuffer(*device, out, 0, std::as_writable_bytes(std::span(results.back())));
+    }
+    std::filesystem::remove(file);
+    EXPECT_EQ(results[0][0], data[1]);
+    EXPECT_NE(results[0][30], 0xabcdu);
+    EXPECT_EQ(results[0], results[1]);
+    EXPECT_EQ(device->validationMessages(), std::vector<std::string>{});
+}
+
+// A kernel's globals are initialised before its main() returns from the dispatch that makes the driver compile: reads which no compiler
+// may leave out find memory there, on every CPU.
+TEST_F(GpuTest, GlobalsFindMemoryWhileTheDriverCompiles) {
+    const Spirv spirv = compile(R"(#version 460
+layout(local_size_x = 64) in;
+layout(buffer_reference, scalar) volatile buffer Words { uint64_t word[32]; };
+struct FirstPush { uint64_t block, tileCounter; uvec2 base, extent; uvec4 arguments; uint warm, rows; };
+layout(push_constant, scalar) uniform Push { FirstPush push; };
+uint64_t follow() {
+    uint64_t at = push.block;
+    for (uint i = 0u; i < 32u; ++i) at = Words(at).word[i];
+    return at;
+}
+uint64_t reached = follow();
+void main() {
+    if (push.warm != 0u) return;
+    Words(push.block).word[0] = reached;
+}
+)");
+    const lodestir::PipelineMaker maker(*device_);
+    EXPECT_TRUE(bool(maker.make({.name = "globals", .spirv = spirv, .constants = {}})));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // From a material and its textures to the lobes at a point.
 #include "bsdf/bsdf.glsl"
 #include "texture/material_map.glsl"
+#include "world/scene_facts.glsl"
 #include "world/surface.glsl"
 
 /// What the maps of a material with layers make of their factors.
@@ -62,7 +63,7 @@ Bsdf bsdfAt(World w, Surface s) {
     uvec3 corners = cornersOf(w, s.primitive);
     vec4 base = w.materials.at[m].baseColor * vertexColorOn(w, m, corners, s.barycentrics);
     float roughness = w.materials.at[m].roughness, metallic = w.materials.at[m].metallic, transmission = w.materials.at[m].transmission;
-    uint layers = w.materials.at[m].layers;
+    uint layers = SCENE_LAYERS != 0 ? w.materials.at[m].layers : NONE;
     LayerValues values;
     if (layers != NONE) values = layerFactors(w, layers);
     // One reading of textures in a loop compiles in half the time of three. What a map without texture loads is its first word.

@@ -6,6 +6,7 @@
 #include "trace/grid_ray.glsl"
 #include "trace/packet_stack.glsl"
 #include "trace/triangle.glsl"
+#include "world/scene_facts.glsl"
 
 struct Packet {
     float tMin, tMax;  // tMax < 0: the lane needs nothing more
@@ -101,7 +102,7 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             pushRanked(stack, subgroupShuffle(references, 4u + childOf(mine)), pushed);
             stack.size = entered ? stack.size + pushed : stack.size - 1u;
         } else if (current < REF_BACK) {
-            if ((current & REF_MASKED) != 0u) {
+            if (SCENE_MASKS != 0 && (current & REF_MASKED) != 0u) {
                 testMaskedLeaf(w, current, r, p);
             } else {
                 testLeaf(w, current, r, p);

@@ -5,6 +5,7 @@
 #include "texture/material_map.glsl"
 #include "trace/ray.h"
 #include "world/primary_hit.h"
+#include "world/scene_facts.glsl"
 #include "world/triangle.glsl"
 #include "world/world.h"
 
@@ -83,7 +84,7 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     n = dot(n, front) < 0.0 ? -n : n;
     s.frame = mat3(vec3(0.0), vec3(0.0), n);
     bool mapped = w.materials.at[s.material].normalMap.texture != NONE;
-    if (mapped || w.materials.at[s.material].layers != NONE) s.frame = tangentFrame(w, placement, mirror, corners, hit.barycentrics, n);
+    if (mapped || (SCENE_LAYERS != 0 && w.materials.at[s.material].layers != NONE)) s.frame = tangentFrame(w, placement, mirror, corners, hit.barycentrics, n);
     if (mapped) n = mapNormal(w, s, corners, s.frame);
     s.shadingNormal = bendNormal(s.frontFace ? n : -n, s.normal, view);
     return s;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include <framework/scene/scene_facts.h>
+
+#include <algorithm>
+
+namespace lodestir {
+
+std::vector<std::pair<std::string, std::string>> sceneFacts(const Scene& scene) {
+    const auto any = [&](const auto& has) { return std::ranges::any_of(scene.materials, has) ? "1" : "0"; };
+    return {{"SCENE_LAYERS", any([](const Material& m) { return m.layers.has_value(); })},
+            {"SCENE_MASKS", any([](const Material& m) { return m.alphaMode == AlphaMode::mask; })}};
+}
+
+}  // namespace lodestir

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+// What the materials of the scene ask for. The runner defines as 0 what none of them does, and the compiler leaves it out.
+#ifndef SCENE_LAYERS
+#define SCENE_LAYERS 1  // MaterialRecord.layers
+#endif
+#ifndef SCENE_MASKS
+#define SCENE_MASKS 1   // MATERIAL_MASK
+#endif
