@@ -49,7 +49,7 @@ void main() {
         memory.hits[id] = h;
     } else {
         // Each lane reads what its neighbour wrote, by words: the layout of C++ and of a dump.
-        uint other = id ^ 1u, base = other * 16u, hits = HITS + other * 13u;
+        uint other = id ^ 1u, base = other * 16u, hits = HITS + other * 16u;
         r = someReservoir(other);
         EXPECT_EQ(uvec4(testScratch[base], testScratch[base + 1u], testScratch[base + 2u], testScratch[base + 3u]),
                   uvec4(r.seed, floatBitsToUint(r.W), r.shape));
