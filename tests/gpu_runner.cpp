@@ -136,7 +136,7 @@ Results dispatch(gpu::Commands& commands, const gpu::Device& device, const gpu::
 bool runTest(const gpu::Device& device, const Path& path) {
     const std::string name = path.filename().string();
     const Directives directives = readDirectives(path, readText(path));
-    const gpu::Spirv spirv = gpu::compileShader({path, {shaderFolder()}, {}, {}});
+    const gpu::Spirv spirv = gpu::compileShader({path, {shaderFolder()}, {}, {}, device.facts().readsTexels});
     const gpu::Pipeline pipeline(device, spirv, {}, sizeof(Push), name);
     const gpu::Buffer buffer(device, resultBytes, gpu::Memory::device, "test results");
     gpu::Commands commands(device);

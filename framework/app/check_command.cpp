@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // `lodestir check`: validates a graph with all its variants and prints its plan. No GPU.
 #include <framework/app/check_command.h>
+#include <framework/app/command_line.h>
 #include <framework/app/session.h>
 #include <framework/graph/plan.h>
 #include <framework/graph/plugins.h>
 #include <framework/graph/scene_node.h>
 #include <framework/scene/level_policy.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
@@ -68,11 +68,11 @@ int check(const Options& options) {
 }  // namespace
 
 void addCheck(CLI::App& app, std::function<int()>& run) {
-    CLI::App* command = app.add_subcommand("check", "Validates a graph and its variants and prints the plan; no GPU");
+    Command command(app, "check", "Validates a graph and its variants and prints the plan; no GPU");
     const auto options = std::make_shared<Options>();
-    options->session.addTo(*command);
-    command->add_flag("--json", options->json, "prints the plan as JSON, with the graph and all its defaults");
-    command->callback([options, &run] { run = [options] { return check(*options); }; });
+    options->session.addTo(command);
+    command.flag("--json", options->json, "prints the plan as JSON, with the graph and all its defaults");
+    command.does(run, [options] { return check(*options); });
 }
 
 }  // namespace lodestir

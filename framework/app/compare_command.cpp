@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // lodestir compare TEST REFERENCE: error metrics of two images.
 #include <framework/app/compare_command.h>
+#include <framework/app/command_line.h>
 #include <framework/app/metric_option.h>
 #include <framework/app/validators.h>
 #include <framework/core/error.h>
@@ -13,7 +14,6 @@
 #include <framework/image/sequence.h>
 #include <framework/image/temporal.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -70,7 +70,7 @@ MetricOptions optionsFor(const CompareArguments& arguments, const ImageData& ref
     if (const auto& flip = arguments.flipExposures; !flip.empty()) {
         constexpr int most = 1000;  // more than there are stops between the darkest and the brightest float
         if (!(flip[2] >= 1 && flip[2] <= most && flip[2] == std::floor(flip[2])))
-            throw CLI::ValidationError("--flip-exposures", fmt::format("COUNT must be 1 to {}, not {}", most, flip[2]));
+            refuseOption("--flip-exposures", fmt::format("COUNT must be 1 to {}, not {}", most, flip[2]));
         options.flip.exposures = FlipExposures{.start = flip[0], .stop = flip[1], .count = static_cast<int>(flip[2])};
     } else {
         options.flip.exposures = flipExposures(reference);
@@ -170,36 +170,32 @@ std::string metricHelp() {
 
 void addCompare(CLI::App& app, std::function<int()>& run) {
     const auto arguments = std::make_shared<CompareArguments>();
-    CLI::App* command = app.add_subcommand("compare", "error metrics of two images or sequences of images");
-    command
-        ->add_option("TEST", arguments->test, "image to judge (.exr, .png, .hdr; opacity is left out), or a sequence: out/display.%d.exr")
-        ->required();
-    command->add_option("REFERENCE", arguments->reference, "image to judge it by, or a sequence")->required();
+    Command command(app, "compare", "error metrics of two images or sequences of images");
+    command.option("TEST", arguments->test, "image to judge (.exr, .png, .hdr; opacity is left out), or a sequence: out/display.%d.exr").required();
+    command.option("REFERENCE", arguments->reference, "image to judge it by, or a sequence").required();
     std::vector<std::string> known = metricNames();
     std::ranges::copy(temporalMetricNames(), std::back_inserter(known));
-    addMetrics(*command, arguments->metrics, std::move(known), "names, separated by commas (all)");
-    command->add_flag("--json", arguments->json, "print one JSON object");
+    addMetrics(command, arguments->metrics, std::move(known), "names, separated by commas (all)");
+    command.flag("--json", arguments->json, "print one JSON object");
     command
-        ->add_option("--exposure", arguments->exposure,
-                     "factor on both images for metrics with an epsilon or a tone curve (median luminance becomes 0.18)")
-        ->check(checkPositive);
+        .option("--exposure", arguments->exposure,
+                "factor on both images for metrics with an epsilon or a tone curve (median luminance becomes 0.18)")
+        .check(checkPositive);
     command
-        ->add_option("--flip-exposures", arguments->flipExposures,
-                     "START,STOP,COUNT in stops for flip, to be the same for all frames that are compared (chosen from REFERENCE)")
-        ->delimiter(',')
-        ->expected(3)
-        ->allow_extra_args(false);
-    command->add_option("--motion", arguments->motion,
-                        "sequence of motions as `visibility` makes them, for the flicker of what moves: out/hits.motion.%d.exr");
-    command->add_option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)")
-        ->check([](const std::string& name) {
+        .option("--flip-exposures", arguments->flipExposures,
+                "START,STOP,COUNT in stops for flip, to be the same for all frames that are compared (chosen from REFERENCE)")
+        .list(3);
+    command.option("--motion", arguments->motion,
+                   "sequence of motions as `visibility` makes them, for the flicker of what moves: out/hits.motion.%d.exr");
+    command.option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)")
+        .check([](const std::string& name) {
             const std::string extension = Path(name).extension().string();
             return extension == ".exr" || extension == ".png" ? std::string() : "\"" + name + "\" must end in .exr or .png";
         });
-    command->add_option("--map-top", arguments->mapTop, "error shown brightest in a .png map (99 % of the pixels are below)")
-        ->check(checkPositive);
-    command->footer(metricHelp());
-    command->callback([arguments, &run] { run = [arguments] { return compare(*arguments); }; });
+    command.option("--map-top", arguments->mapTop, "error shown brightest in a .png map (99 % of the pixels are below)")
+        .check(checkPositive);
+    command.footer(metricHelp());
+    command.does(run, [arguments] { return compare(*arguments); });
 }
 
 }  // namespace lodestir

@@ -3,9 +3,11 @@
 #pragma once
 #include <framework/core/api.h>
 
-#include <CLI/CLI.hpp>
-
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace lodestir {
 

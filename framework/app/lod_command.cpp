@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // lodestir lod MODEL: builds levels of detail and writes them into a copy of the model.
 #include <framework/app/lod_command.h>
+
+#include <framework/app/command_line.h>
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/json.h>
@@ -104,22 +106,22 @@ int buildLevels(const LodArguments& arguments) {
 
 void addLod(CLI::App& app, std::function<int()>& run) {
     const auto arguments = std::make_shared<LodArguments>();
-    CLI::App* command = app.add_subcommand("lod", "Builds levels of detail that keep UVs, and writes them into a copy of a model.");
-    command->add_option("MODEL", arguments->model, "a model (.gltf, .glb)")->required();
-    command->add_option("--out", arguments->out, "file to write (.glb)")->required()->check([](const std::string& name) {
+    Command command(app, "lod", "Builds levels of detail that keep UVs, and writes them into a copy of a model.");
+    command.option("MODEL", arguments->model, "a model (.gltf, .glb)").required();
+    command.option("--out", arguments->out, "file to write (.glb)").required().check([](const std::string& name) {
         return Path(name).extension() == ".glb" ? std::string() : "\"" + name + "\" must end in .glb: that is what is written";
     });
-    command->add_option("--levels", arguments->options.chain.levels, "how many there are to be, the finest included (4)")
-        ->check(CLI::Range(2, maxLevels));
-    command->add_option("--ratio", arguments->options.chain.ratio, "triangles of a level over those of the next: 2 or 4 (2)")
-        ->check(CLI::IsMember({2, 4}));
-    command->add_option("--mesh", arguments->options.meshes, "only meshes of this name")->take_all()->allow_extra_args(false);
-    command->add_flag("--json", arguments->json, "facts as JSON");
-    command->add_option("--device", arguments->device, "accepted everywhere; not used here");
-    command->add_option("--rays", arguments->rays, "accepted everywhere; not used here");
-    command->footer(
+    command.option("--levels", arguments->options.chain.levels, "how many there are to be, the finest included (4)")
+        .within(2, maxLevels);
+    command.option("--ratio", arguments->options.chain.ratio, "triangles of a level over those of the next: 2 or 4 (2)")
+        .oneOf({2, 4});
+    command.option("--mesh", arguments->options.meshes, "only meshes of this name").repeatable();
+    command.flag("--json", arguments->json, "facts as JSON");
+    command.option("--device", arguments->device, "accepted everywhere; not used here");
+    command.option("--rays", arguments->rays, "accepted everywhere; not used here");
+    command.footer(
         "Error: how far a level is from the finest one, both ways, in units of the mesh (sampled). Coverage: share of the screen.");
-    command->callback([arguments, &run] { run = [arguments] { return buildLevels(*arguments); }; });
+    command.does(run, [arguments] { return buildLevels(*arguments); });
 }
 
 }  // namespace lodestir

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The option --metrics, as every command that compares images has it.
 #pragma once
+#include <framework/app/command_line.h>
+
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
 
 namespace lodestir {
 
 /// Names out of `known`, separated by commas; another name is wrong use, with a guess at what was meant.
-CLI::Option* addMetrics(CLI::App& command, std::vector<std::string>& metrics, std::vector<std::string> known, const std::string& about);
+CommandOption addMetrics(Command& command, std::vector<std::string>& metrics, std::vector<std::string> known, const std::string& about);
 
 }  // namespace lodestir

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // `lodestir passes`: what passes exist and what each declares, for people, programs, editors and the docs.
 #include <framework/app/passes_command.h>
+#include <framework/app/command_line.h>
 #include <framework/core/log.h>
 #include <framework/graph/header.h>
 #include <framework/graph/plugins.h>
 #include <framework/graph/scene_node.h>
 #include <framework/graph/schema.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,18 +65,18 @@ int listPasses(const Options& options) {
 }  // namespace
 
 void addPasses(CLI::App& app, std::function<int()>& run) {
-    CLI::App* command = app.add_subcommand("passes", "Lists what passes exist, or what one of them declares");
+    Command command(app, "passes", "Lists what passes exist, or what one of them declares");
     const auto options = std::make_shared<Options>();
-    command->add_option("name", options->name, "a pass type, as graph files write it");
-    command->add_option("--passes", options->folders, "another folder of pass libraries")->take_all()->allow_extra_args(false);
-    auto* json = command->add_flag("--json", options->json, "prints JSON");
-    auto* schema = command->add_flag("--schema", options->schema, "prints a JSON Schema of graph files, for editors");
-    auto* markdown = command->add_flag("--markdown", options->markdown, "prints the page of the docs");
-    json->excludes(schema)->excludes(markdown);
-    schema->excludes(markdown);
-    command->add_option("--device", options->device, "taken like everywhere; no device is used");
-    command->add_option("--rays", options->rays, "taken like everywhere; no ray is traced");
-    command->callback([options, &run] { run = [options] { return listPasses(*options); }; });
+    command.option("name", options->name, "a pass type, as graph files write it");
+    command.option("--passes", options->folders, "another folder of pass libraries").repeatable();
+    CommandOption json = command.flag("--json", options->json, "prints JSON");
+    CommandOption schema = command.flag("--schema", options->schema, "prints a JSON Schema of graph files, for editors");
+    CommandOption markdown = command.flag("--markdown", options->markdown, "prints the page of the docs");
+    json.excludes(schema).excludes(markdown);
+    schema.excludes(markdown);
+    command.option("--device", options->device, "taken like everywhere; no device is used");
+    command.option("--rays", options->rays, "taken like everywhere; no ray is traced");
+    command.does(run, [options] { return listPasses(*options); });
 }
 
 }  // namespace lodestir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/run_command.h>
 
+#include <framework/app/command_line.h>
 #include <framework/app/dump.h>
 #include <framework/app/metric_option.h>
 #include <framework/app/run_report.h>
@@ -12,7 +13,6 @@
 #include <framework/image/png.h>
 #include <framework/image/preview.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
@@ -121,19 +121,19 @@ int runGraph(const RunOptions& options) {
 
 void addRun(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<RunOptions>();
-    CLI::App* command = app.add_subcommand("run", "Renders a graph's frames and writes images, dumps and run.json.");
-    options->session.addTo(*command);
-    CLI::Option* reference =
-        command->add_option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json")->check(checkNotEmpty);
-    addMetrics(*command, options->metrics, metricNames(), "names of what is measured, separated by commas; see `lodestir compare --help`")
-        ->needs(reference)
-        ->capture_default_str();
-    command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
-    command->add_option("--trace", options->trace, "file for the passes' times as a trace that Perfetto and chrome://tracing show")->check(checkNotEmpty);
-    command->add_flag("--check-nan", options->checkNan, "fail when a shown or dumped image holds a value that is not finite");
-    command->add_flag("--last", options->lastOnly, "write images of the last frame only");
-    command->add_flag("--json", options->json, "print run.json as well");
-    command->callback([options, &run] { run = [options] { return runGraph(*options); }; });
+    Command command(app, "run", "Renders a graph's frames and writes images, dumps and run.json.");
+    options->session.addTo(command);
+    const CommandOption reference =
+        command.option("--reference", options->reference, "image to compare the shown port with; the metrics go to run.json").check(checkNotEmpty);
+    addMetrics(command, options->metrics, metricNames(), "names of what is measured, separated by commas; see `lodestir compare --help`")
+        .needs(reference)
+        .showDefault();
+    command.option("--out", options->out, "folder for what is written").showDefault();
+    command.option("--trace", options->trace, "file for the passes' times as a trace that Perfetto and chrome://tracing show").check(checkNotEmpty);
+    command.flag("--check-nan", options->checkNan, "fail when a shown or dumped image holds a value that is not finite");
+    command.flag("--last", options->lastOnly, "write images of the last frame only");
+    command.flag("--json", options->json, "print run.json as well");
+    command.does(run, [options] { return runGraph(*options); });
 }
 
 }  // namespace lodestir

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `lodestir scene`: loads a scene without a GPU and tells triangles, levels, materials, lights, memory, camera and notes.
 #include <framework/app/scene_command.h>
+#include <framework/app/command_line.h>
 #include <framework/core/json.h>
 #include <framework/scene/scene.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -217,12 +217,12 @@ int describe(const Options& options) {
 
 void addScene(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("scene", "Tells what a scene or a model holds; needs no GPU.");
-    command->add_option("SCENE", options->scene, "a scene file (.json) or a model (.gltf, .glb)")->required();
-    command->add_flag("--json", options->json, "facts as JSON");
-    command->add_option("--device", options->device, "accepted everywhere; not used here");
-    command->add_option("--rays", options->rays, "accepted everywhere; not used here");
-    command->callback([options, &run] { run = [options] { return describe(*options); }; });
+    Command command(app, "scene", "Tells what a scene or a model holds; needs no GPU.");
+    command.option("SCENE", options->scene, "a scene file (.json) or a model (.gltf, .glb)").required();
+    command.flag("--json", options->json, "facts as JSON");
+    command.option("--device", options->device, "accepted everywhere; not used here");
+    command.option("--rays", options->rays, "accepted everywhere; not used here");
+    command.does(run, [options] { return describe(*options); });
 }
 
 }  // namespace lodestir

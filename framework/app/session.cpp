@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/session.h>
 
+#include <framework/app/command_line.h>
 #include <framework/app/validators.h>
 #include <framework/core/log.h>
 #include <framework/graph/scene_node.h>
-
-#include <CLI/CLI.hpp>
 
 #include <charconv>
 #include <chrono>
@@ -20,25 +19,25 @@ glm::uvec2 readSize(const std::string& option, const std::string& text) {
         const auto [rest, good] = std::from_chars(x + 1, end, size.y);
         if (good == std::errc() && rest == end && size.x > 0 && size.y > 0) return size;
     }
-    throw CLI::ValidationError(option, "\"" + text + "\" is no size; write it like 960x540");
+    refuseOption(option, "\"" + text + "\" is no size; write it like 960x540");
 }
 
-void SessionOptions::addTo(CLI::App& command) {
-    command.add_option("graph", graph, "graph file")->required();
-    command.add_option_function<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's")->check(checkNotEmpty);
-    command.add_option_function<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames")->check(CLI::Range(1, std::numeric_limits<int>::max()));
-    command.add_option_function<std::string>("--size", [this](const std::string& v) { changes.size = readSize("--size", v); }, "of the frame, WIDTHxHEIGHT");
-    command.add_option_function<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers")->check(checkNotEmpty);
-    command.add_option("--set", changes.set, "pass.parameter=value")->take_all()->allow_extra_args(false);
-    command.add_option_function<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
-    command.add_option_function<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
-    command.add_option("--dump", dumps, "pass.port to write as well")->take_all()->allow_extra_args(false);
-    command.add_option("--passes", passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
-    command.add_option("--device", device, "name or index, see `lodestir devices`")->check(checkNotEmpty);
-    command.add_option("--rays", rays, "how rays are traced: packet, lane or ray_query")->check(checkNotEmpty);
-    command.add_flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
-    command.add_flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
-    command.add_flag("--count-steps", countSteps, "count the nodes that rays visit");
+void SessionOptions::addTo(Command& command) {
+    command.option("graph", graph, "graph file").required();
+    command.taken<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's").check(checkNotEmpty);
+    command.taken<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames").within(1, std::numeric_limits<int>::max());
+    command.taken<std::string>("--size", [this](const std::string& v) { changes.size = readSize("--size", v); }, "of the frame, WIDTHxHEIGHT");
+    command.taken<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers").check(checkNotEmpty);
+    command.option("--set", changes.set, "pass.parameter=value").repeatable();
+    command.taken<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
+    command.taken<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
+    command.option("--dump", dumps, "pass.port to write as well").repeatable();
+    command.option("--passes", passes, "another folder of pass libraries").repeatable();
+    command.option("--device", device, "name or index, see `lodestir devices`").check(checkNotEmpty);
+    command.option("--rays", rays, "how rays are traced: packet, lane or ray_query").check(checkNotEmpty);
+    command.flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
+    command.flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
+    command.flag("--count-steps", countSteps, "count the nodes that rays visit");
 }
 
 Session::Session(const SessionOptions& options, SessionParts parts)

@@ -9,13 +9,11 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace lodestir {
 
-/// "960x540", given to an option. CLI::ValidationError naming the option when it is none.
+class Command;
+
+/// "960x540", given to an option. Wrong use naming the option when it is none.
 glm::uvec2 readSize(const std::string& option, const std::string& text);
 
 struct SessionOptions {
@@ -28,7 +26,7 @@ struct SessionOptions {
     bool checkBounds = false, allBarriers = false, countSteps = false;
 
     /// Adds the options that all rendering commands share.
-    void addTo(CLI::App& command);
+    void addTo(Command& command);
 };
 
 /// What a session may take over from another instead of making it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/study_command.h>
 
+#include <framework/app/command_line.h>
 #include <framework/app/run_report.h>
 #include <framework/app/validators.h>
 #include <framework/core/log.h>
@@ -9,8 +10,6 @@
 #include <framework/study/ensemble_study.h>
 #include <framework/study/report.h>
 #include <framework/study/stage.h>
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -161,12 +160,12 @@ int runStudy(const StudyOptions& options) {
 
 void addStudy(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<StudyOptions>();
-    CLI::App* command = app.add_subcommand("study", "Measures techniques against each other and writes results.jsonl and report.html.");
-    command->add_option("STUDY", options->study, "study file")->required();
-    command->add_option("--out", options->out, "folder for what is written (out/<name of the study>)")->check(checkNotEmpty);
-    command->add_flag("--resume", options->resume, "keep the results that are there, make what is missing");
-    command->add_option("--shard", options->shard, "make one part of the runs: I/N, with I from 1 to N")
-        ->check([](const std::string& text) {
+    Command command(app, "study", "Measures techniques against each other and writes results.jsonl and report.html.");
+    command.option("STUDY", options->study, "study file").required();
+    command.option("--out", options->out, "folder for what is written (out/<name of the study>)").check(checkNotEmpty);
+    command.flag("--resume", options->resume, "keep the results that are there, make what is missing");
+    command.option("--shard", options->shard, "make one part of the runs: I/N, with I from 1 to N")
+        .check([](const std::string& text) {
             try {
                 readShard(text);
                 return std::string();
@@ -174,10 +173,10 @@ void addStudy(CLI::App& app, std::function<int()>& run) {
                 return std::string(error.what());
             }
         });
-    command->add_option("--passes", options->stage.passes, "another folder of pass libraries")->take_all()->allow_extra_args(false);
-    command->add_option("--device", options->stage.device, "name or index, see `lodestir devices`")->check(checkNotEmpty);
-    command->add_option("--rays", options->stage.rays, "how rays are traced: packet, lane or ray_query")->check(checkNotEmpty);
-    command->callback([options, &run] { run = [options] { return runStudy(*options); }; });
+    command.option("--passes", options->stage.passes, "another folder of pass libraries").repeatable();
+    command.option("--device", options->stage.device, "name or index, see `lodestir devices`").check(checkNotEmpty);
+    command.option("--rays", options->stage.rays, "how rays are traced: packet, lane or ray_query").check(checkNotEmpty);
+    command.does(run, [options] { return runStudy(*options); });
 }
 
 }  // namespace lodestir

@@ -2,11 +2,10 @@
 #include <framework/app/view_command.h>
 
 #include <framework/app/canvas.h>
+#include <framework/app/command_line.h>
 #include <framework/app/panels.h>
 #include <framework/app/self_report.h>
 #include <framework/core/log.h>
-
-#include <CLI/CLI.hpp>
 
 #include <memory>
 
@@ -89,20 +88,20 @@ int showWindow(const ViewOptions& options) {
 
 void addView(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<ViewOptions>();
-    CLI::App* command = app.add_subcommand("view", "Renders a graph into a window: any port, all parameters, a camera to move, live reload.");
-    options->session.addTo(*command);
-    command->get_option("--frames")->description("quit after this many frames");
-    command->add_option_function<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, "size of the window, WIDTHxHEIGHT");
-    command->add_option("--out", options->out, "folder for what is saved")->capture_default_str();
-    command->add_option_function<std::string>(
+    Command command(app, "view", "Renders a graph into a window: any port, all parameters, a camera to move, live reload.");
+    options->session.addTo(command);
+    command.find("--frames").about("quit after this many frames");
+    command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, "size of the window, WIDTHxHEIGHT");
+    command.option("--out", options->out, "folder for what is saved").showDefault();
+    command.taken<std::string>(
         "--screenshot",
         [options](const std::string& v) {
             options->screenshot = v;
             options->screenshotAtEnd = true;
         },
         "PNG of the window, written by F12 and when --frames are done");
-    command->add_option("--self-report", options->selfReport, "JSON of what the viewer knows about itself, for tests");
-    command->callback([options, &run] { run = [options] { return showWindow(*options); }; });
+    command.option("--self-report", options->selfReport, "JSON of what the viewer knows about itself, for tests");
+    command.does(run, [options] { return showWindow(*options); });
 }
 
 }  // namespace lodestir

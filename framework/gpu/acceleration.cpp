@@ -32,7 +32,7 @@ VkAccelerationStructureGeometryKHR geometryOf(const TriangleGeometry& source) {
     triangles.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
     triangles.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
     triangles.vertexData.deviceAddress = source.positions;
-    triangles.vertexStride = 3 * sizeof(float);
+    triangles.vertexStride = source.stride;
     triangles.maxVertex = source.vertices - 1;
     triangles.indexType = VK_INDEX_TYPE_UINT32;
     triangles.indexData.deviceAddress = source.indices;

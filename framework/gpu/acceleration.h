@@ -9,10 +9,11 @@
 
 namespace lodestir::gpu {
 
-/// Triangles in device memory: three floats a position, three 32-bit indices a triangle.
+/// Triangles in device memory: positions begin with three floats, a triangle is three 32-bit indices.
 struct TriangleGeometry {
     VkDeviceAddress positions = 0, indices = 0;
     std::uint32_t vertices = 0, triangles = 0;
+    std::uint32_t stride = 3 * sizeof(float);  ///< bytes from position to position
     bool opaque = true;  ///< false: queries stop at each triangle to ask
 };
 

@@ -4,6 +4,7 @@
 
 #include <framework/core/error.h>
 #include <framework/gpu/commands.h>
+#include <framework/gpu/heap.h>
 
 #include <fmt/format.h>
 
@@ -58,9 +59,24 @@ Buffer::Buffer(const Device& device, std::size_t size, Memory memory, const std:
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = size_;
     info.usage = usage(device);
-    const VmaAllocationCreateInfo where = placement(device, memory);
+    VmaAllocationCreateInfo where = placement(device, memory);
     VmaAllocationInfo allocated{};
-    const VkResult result = vmaCreateBufferWithAlignment(device.allocator(), &info, &where, granule, &buffer_, &allocation_, &allocated);
+    VkExternalMemoryBufferCreateInfo external{};
+    external.sType = VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_BUFFER_CREATE_INFO;
+    external.handleTypes = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
+    Heap* heap = memory == Memory::readback ? nullptr : device.heap();
+    if (heap) {
+        info.pNext = &external;
+        where.pool = heap->pool();
+    }
+    const auto create = [&] { return vmaCreateBufferWithAlignment(device.allocator(), &info, &where, granule, &buffer_, &allocation_, &allocated); };
+    VkResult result = create();
+    if (heap && result != VK_SUCCESS) {
+        heap->overflow();
+        info.pNext = nullptr;
+        where.pool = VK_NULL_HANDLE;
+        result = create();
+    }
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
         throw Error(fmt::format("out of memory: buffer \"{}\" needs {:.1f} MiB", name, mebibytes), "a smaller image or scene would fit");
     check(result, "vmaCreateBuffer");

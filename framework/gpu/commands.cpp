@@ -3,6 +3,7 @@
 #include <framework/gpu/commands.h>
 
 #include <framework/core/error.h>
+#include <framework/gpu/heap.h>
 
 #include <fmt/format.h>
 
@@ -65,6 +66,10 @@ void Commands::dispatch(const Pipeline& pipeline, std::span<const std::byte> pus
             fmt::format("a dispatch of {} x {} x {} workgroups; the device allows {} x {} x {}", x, y, z, most[0], most[1], most[2]));
     if (x == 0 || y == 0 || z == 0) return;
     vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
+    if (const Heap* heap = device_->heap()) {
+        const VkDescriptorSet set = heap->set();
+        vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
+    }
     if (!push.empty())
         vkCmdPushConstants(commands_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<std::uint32_t>(push.size()),
                            push.data());

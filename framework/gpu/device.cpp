@@ -5,6 +5,7 @@
 #include <framework/core/error.h>
 #include <framework/core/log.h>
 #include <framework/gpu/features.h>
+#include <framework/gpu/heap.h>
 #include <framework/gpu/memory.h>
 
 #include <fmt/format.h>
@@ -243,6 +244,7 @@ Device::Device(const DeviceOptions& options) : Device(nullptr) {
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     allocator_ = createAllocator(instance_, physical_, device_);
+    if (facts_.readsTexels) heap_ = std::make_unique<Heap>(*this);
 
     if (debugUtils) {
         const auto load = [&](auto& function, const char* name) {
@@ -256,6 +258,7 @@ Device::Device(const DeviceOptions& options) : Device(nullptr) {
 
 Device::~Device() {
     if (device_) vkDeviceWaitIdle(device_);
+    heap_.reset();
     if (allocator_) vmaDestroyAllocator(allocator_);
     if (device_) vkDestroyDevice(device_, nullptr);
     if (messenger_) {

@@ -15,6 +15,8 @@
 
 namespace lodestir::gpu {
 
+class Heap;
+
 /// One feature that the framework needs or can use, for `lodestir devices`.
 struct Feature {
     std::string name;      ///< Vulkan's own name, e.g. "bufferDeviceAddress"
@@ -31,6 +33,7 @@ struct DeviceFacts {
     bool isLavapipe = false;
     bool rayQuery = false;
     bool pinsSubgroupSize = false;  ///< pipelines can be held to subgroupSize lanes
+    bool readsTexels = false;    ///< records are read by texel rather than by address, see gpu/heap.h
     bool unifiedMemory = false;  ///< all memory is the CPU's own: buffers are filled and read in place
     float timestampPeriod = 1;  ///< nanoseconds a tick
     std::uint32_t timestampBits = 0;   ///< valid bits of a stamp; 0: the queue has no timestamps
@@ -73,6 +76,8 @@ public:
     VkQueue queue() const { return queue_; }
     std::uint32_t queueFamily() const { return queueFamily_; }
     VmaAllocator allocator() const { return allocator_; }
+    /// Where all buffers are to lie; nullptr for devices that read by address.
+    Heap* heap() const { return heap_.get(); }
     bool validating() const { return validating_; }
     /// Validation messages (warnings and errors) so far; each is also logged. Tests fail when it is not empty.
     const std::vector<std::string>& validationMessages() const;
@@ -98,6 +103,7 @@ private:
     mutable std::mutex queueMutex_;
     std::uint32_t queueFamily_ = 0;
     VmaAllocator allocator_ = VK_NULL_HANDLE;
+    std::unique_ptr<Heap> heap_;
     bool validating_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT setName_ = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel_ = nullptr;

@@ -2,9 +2,13 @@
 // What the framework asks of a device: one table, read for `lodestir devices`, for choosing, and for switching features on.
 #include <framework/gpu/features.h>
 
+#include <framework/gpu/jit_cpu.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <string_view>
 
 namespace lodestir::gpu {
 
@@ -204,10 +208,15 @@ DeviceFacts describeDevice(VkPhysicalDevice physical, int index) {
     for (const Row& row : rows()) add(row.name, is13 && *row.bit(chain) && hasAll(extensions, row.extensions), row.fallback);
     add("requiredSubgroupSize", facts.pinsSubgroupSize, "the driver chooses the subgroup size");
     add("timestamps", facts.timestampBits > 0, "GPU times read 0");
+    add(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME, extensions.contains(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME),
+        "records are read by address, which only CPU drivers are slower with");
     add("VK_KHR_swapchain", extensions.contains(VK_KHR_SWAPCHAIN_EXTENSION_NAME), "no window; everything else works");
     const auto found = std::ranges::find(facts.features, "rayQuery", &Feature::name);
     const auto structure = std::ranges::find(facts.features, "accelerationStructure", &Feature::name);
     facts.rayQuery = found->present && structure->present;
+    const char* records = std::getenv("LODESTIR_RECORDS");
+    const bool wanted = records ? std::string_view(records) == "texels" : gathersOfCpu() == Gathers::none;
+    facts.readsTexels = facts.isLavapipe && wanted && extensions.contains(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     return facts;
 }
 
@@ -225,6 +234,7 @@ std::vector<const char*> enableFeatures(VkPhysicalDevice physical, bool window, 
         *row.bit(chain) = VK_TRUE;
         std::ranges::for_each(row.extensions, enable);
     }
+    if (extensions.contains(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME)) enable(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     if (window) enable(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     chain.link(enabled);
     return names;

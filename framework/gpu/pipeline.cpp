@@ -3,6 +3,7 @@
 #include <framework/gpu/pipeline.h>
 
 #include <framework/core/error.h>
+#include <framework/gpu/heap.h>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,9 @@ Pipeline::Pipeline(const Device& device, const Spirv& spirv, std::span<const Spe
     const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes_};
     VkPipelineLayoutCreateInfo layoutInfo{};
     layoutInfo.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    const VkDescriptorSetLayout texels = device.heap() ? device.heap()->layout() : VK_NULL_HANDLE;
+    layoutInfo.setLayoutCount = texels ? 1 : 0;
+    layoutInfo.pSetLayouts = &texels;
     layoutInfo.pushConstantRangeCount = pushBytes_ ? 1 : 0;
     layoutInfo.pPushConstantRanges = &range;
     check(vkCreatePipelineLayout(device.handle(), &layoutInfo, nullptr, &layout_), "vkCreatePipelineLayout");

@@ -5,6 +5,7 @@
 #include <framework/core/error.h>
 #include <framework/core/log.h>
 #include <framework/gpu/include_closure.h>
+#include <framework/gpu/texel_reads.h>
 
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
@@ -48,7 +49,7 @@ constexpr const char* extensions[] = {
 };
 
 // Bump when this file compiles the same input to other words.
-constexpr std::uint32_t cacheFormat = 1;
+constexpr std::uint32_t cacheFormat = 2;
 
 std::string preamble(const ShaderSource& source) {
     std::string text;
@@ -239,7 +240,7 @@ Spirv compileShader(const ShaderSource& source) {
     const std::string before = preamble(source);
     Hash hash;
     hash.addValue(cacheFormat).addValue(GLSLANG_VERSION_MAJOR).addValue(GLSLANG_VERSION_MINOR).addValue(GLSLANG_VERSION_PATCH);
-    hash.addValue(before.size()).add(before);
+    hash.addValue(before.size()).add(before).addValue(source.texelReads);
     closure.addTo(hash);
 
     Spirv spirv;
@@ -250,6 +251,7 @@ Spirv compileShader(const ShaderSource& source) {
     spirv.cached = !spirv.words.empty();
     if (!spirv.cached) {
         spirv.words = translate(source, closure);
+        if (source.texelReads) spirv.words = readByTexels(spirv.words);
         writeCached(path, spirv.words);
     }
     return spirv;

@@ -15,6 +15,7 @@ struct ShaderSource {
     std::vector<Path> folders;                     ///< where #include "x" is looked up after the including file's own folder
     std::map<std::string, std::string> generated;  ///< include name -> text, for files that exist in memory only ("pass.glsl")
     std::vector<std::pair<std::string, std::string>> defines;
+    bool texelReads = false;                       ///< arrays are read by texel rather than by address (gpu/texel_reads.h)
 };
 
 struct Spirv {

@@ -120,23 +120,28 @@ private:
         if (hasUniforms) line("#define params passBlock().params");
     }
 
-    /// One pair of address types for each struct that is read or written, however many ports carry it.
+    /// One address type for each struct that is only read, however many ports carry it. What the pass makes has types of its own by port, so that
+    /// a shader that reads one port and writes another is known not to write what it reads.
     void writeMemoryTypes() {
         std::set<std::pair<PortType::Kind, std::string_view>> written;
         for (const Port* port : pass_.ports) {
             const PortType& type = port->type;
-            if (type.kind == PortType::Kind::image || !written.emplace(type.kind, type.name).second) continue;
             if (type.kind == PortType::Kind::handle) {
-                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer {}Memory {{ {} value; }};",
-                     capitalised(type.name), type.name);
-            } else {
-                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer In{} {{ {} at[]; }};",
-                     capitalised(type.name), type.name);
-                line("layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Out{} {{ {} at[]; }};", capitalised(type.name),
-                     type.name);
+                if (written.emplace(type.kind, type.name).second)
+                    line("\nlayout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer {}Memory {{ {} value; }};",
+                         capitalised(type.name), type.name);
+            } else if (type.kind == PortType::Kind::buffer && port->isInput()) {
+                if (written.emplace(type.kind, type.name).second)
+                    line("\nlayout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer {} {{ {} at[]; }};",
+                         elementsOf(*port), type.name);
+            } else if (type.kind == PortType::Kind::buffer) {
+                line("\nlayout(buffer_reference, scalar, buffer_reference_align = 16) buffer {} {{ {} at[]; }};", elementsOf(*port), type.name);
             }
         }
     }
+
+    /// The address type of a buffer port.
+    std::string elementsOf(const Port& port) const { return port.isInput() ? "In" + capitalised(port.type.name) : "Out" + capitalised(readName(port)); }
 
     void writePort(std::size_t i) {
         const Port& port = *pass_.ports[i];
@@ -178,20 +183,20 @@ private:
     }
 
     void writeBuffer(std::size_t i, const Port& port) {
-        const std::string memory = capitalised(port.type.name);
+        const std::string memory = elementsOf(port);
         const std::string name = readName(port);
         line("uint {}Count() {{ return passBlock().{}.size.x; }}", name, name);
         line("{} {}(uint i) {{", port.type.name, name);
         line("    const PortRecord port = passBlock().{};", name);
         line("    {} nothing = {{}};", port.type.name);
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return nothing;", i);
-        line("    return {}{}(port.address).at[i];", port.isInput() ? "In" : "Out", memory);
+        line("    return {}(port.address).at[i];", memory);
         line("}}");
         if (!isWritable(port)) return;
         line("void store{}(uint i, {} value) {{", capitalised(port.name), port.type.name);
         line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return;", i);
-        line("    Out{}(port.address).at[i] = value;", memory);
+        line("    {}(port.address).at[i] = value;", memory);
         line("}}");
     }
 

@@ -16,12 +16,13 @@ namespace lodestir {
 struct Kernel {
     gpu::Pipeline pipeline;
     bool traces = false;        ///< includes trace/driver.glsl
+    bool readsTexels = false;   ///< right only while all memory lies in the device's heap
     std::vector<Path> files;    ///< include closure, for watching
 };
 
 class Kernels {
 public:
-    Kernels(const gpu::Device& device, const Graph& graph, const RunnerOptions& options) : device_(device), graph_(graph), options_(options) {}
+    Kernels(const gpu::Device& device, const Graph& graph, const RunnerOptions& options);
     /// The kernel of a node's shader; made ready when it is first asked for. Error with the compiler's messages.
     const Kernel& of(int node, std::string_view shader);
     /// Makes anew, against the files as they are now, those that read one of `changed`; returns how many. On Error all stay as they were.
@@ -37,6 +38,7 @@ private:
     const gpu::Device& device_;
     const Graph& graph_;
     const RunnerOptions& options_;
+    gpu::Buffer idle_;  ///< the block of a dispatch that only warms
     std::map<std::pair<int, std::string>, Kernel, std::less<>> kernels_;
     std::vector<ShaderReport> reports_;
 };

@@ -27,6 +27,7 @@ std::shared_ptr<const BottomLevels::Table> BottomLevels::build(const Scene& scen
                               .indices = indices_.address() + std::uint64_t(level.firstPrimitive) * 3 * sizeof(std::uint32_t),
                               .vertices = std::uint32_t(geometry.positions.size()),
                               .triangles = level.primitiveCount,
+                              .stride = sizeof(glm::vec4),
                               .opaque = std::ranges::all_of(masks, [](const BvhTriangle& t) { return t.mask == 0; })});
         }
     }

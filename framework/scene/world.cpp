@@ -168,7 +168,10 @@ std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
     auto shapes = std::make_shared<Shapes>();
     shapes->triangles = gpu::makeBuffer(device_, std::span<const BvhTriangle>(geometry_->triangles), "triangles");
     shapes->meshes = gpu::makeBuffer(device_, std::span<const MeshRecord>(geometry_->meshes), "meshes");
-    shapes->positions = gpu::makeBuffer(device_, std::span<const glm::vec3>(geometry_->positions), "positions");
+    std::vector<glm::vec4> positions;
+    positions.reserve(geometry_->positions.size());
+    for (const glm::vec3& p : geometry_->positions) positions.emplace_back(p, 0);
+    shapes->positions = gpu::makeBuffer(device_, std::span<const glm::vec4>(positions), "positions");
     shapes->vertices = gpu::makeBuffer(device_, std::span<const VertexRecord>(geometry_->vertices), "vertices");
     return shapes;
 }

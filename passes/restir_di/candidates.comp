@@ -35,7 +35,7 @@ bool startBsdf(inout Path p) {
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.lights = p.ris = risStart();
-    p.kept = LightReservoir(NONE, vec2(0), 0, 0, 0);
+    p.kept = LightReservoir(NONE, vec2(0), 0, 0, 0, uvec2(0));
     p.mirrored = vec3(0);
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
     LitSurface l = litSurface(w, hits(pixelIndex(pixel)));
@@ -50,7 +50,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         float pdf;
         float sent = luminance(bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf);
         if (!risAdd(p.lights, sent / count, random1(p.decisions, i, RANDOM_FREE))) continue;
-        p.kept = LightReservoir(light.point.light, light.point.uv, 0, 0, sent * pointDensity(light));
+        p.kept = LightReservoir(light.point.light, light.point.uv, 0, 0, sent * pointDensity(light), uvec2(0));
         p.light = light;
         p.bsdfPdf = pdf;
     }
@@ -97,7 +97,7 @@ void takeBsdf(inout Path p, World w, Hit hit) {
     }
     float share = misWeight(p.next.pdf, float(params.candidates) * pdfLight);
     if (risAdd(p.ris, luminance(sent) * share, random1(p.decisions, uint(params.candidates), RANDOM_FREE)))
-        p.kept = LightReservoir(point.light, point.uv, 0, 0, luminance(sent) * p.next.pdf * perPoint);
+        p.kept = LightReservoir(point.light, point.uv, 0, 0, luminance(sent) * p.next.pdf * perPoint, uvec2(0));
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {

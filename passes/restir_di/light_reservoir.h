@@ -16,6 +16,7 @@ struct LightReservoir {
     float W;      // unbiased contribution weight: stands for 1 / density, per area of a triangle, per steradian of the environment
     float M;      // confidence
     float pHat;   // target in the pixel that holds it: luminance of what would arrive if nothing were in the way
+    uvec2 pad;
 };
 
 LODESTIR_SHARED_END

@@ -59,37 +59,48 @@ bool mapVertex(World from, World to, bool wanted, uint instance, inout uint prim
 bool mapsPrimary() { return params.vertexMapping != vertexMapping_triangle && params.vertexMapping != vertexMapping_reconnection_only; }
 bool mapsReconnection() { return params.vertexMapping != vertexMapping_triangle && params.vertexMapping != vertexMapping_primary_only; }
 
-// Whether what the pixel's centre sees could be found last frame. It tells how much of the confidence of last frame is left to a pixel, and asks
-// nothing of the samples, as confidence must not.
-bool keepsFirstHit(PrimaryHit centre) {
-    if (centre.primitive == NONE) return true;
-    float jacobian;
-    return mapVertex(scene, worldPrev(), mapsPrimary(), centre.instance, centre.primitive, centre.barycentrics, uvOn(scene, cornersOf(scene, centre.primitive), centre.barycentrics, 0), jacobian);
-}
+// What is mapped for an item: what the pixel's centre sees, for SCATTER_BACK alone; the first hit of the path, where it is kept; x_k.
+const uint MAP_CENTRE = 0, MAP_PRIMARY = 1, MAP_RECONNECTION = 2, MAPS = 3;
 
-// tau of x_k, where it is a surface.
-bool mapReconnection(World from, World to, inout Reservoir path, SampleHit hit, out float jacobian) {
-    jacobian = 1;
+// Takes all that belongs to an item from the World `from` to the World `to`, at one place in the code: a map is many reads, and is compiled
+// wherever it is called. False: the path can't be found there. `jacobian` becomes that of both barycentric areas.
+bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, inout PrimaryHit first, inout Reservoir path, SampleHit hit, out float jacobian) {
+    bool keepsFirst = item == SCATTER || item == SCATTER_BACK;
     uint kind = reconnectionKind(unpackShape(path.shape));
-    if (kind == RC_NONE || kind == RC_ENVIRONMENT || kind == RC_LIGHT) return true;
-    vec2 barycentrics = unpackBarycentrics(path.rcBarycentrics);
-    if (!mapVertex(from, to, mapsReconnection(), path.rcInstance, path.rcPrimitive, barycentrics, hit.rcUv, jacobian)) return false;
-    path.rcBarycentrics = packBarycentrics(barycentrics);
+    bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && kind != RC_LIGHT;
+    jacobian = 1;
+    for (uint k = item == SCATTER_BACK ? MAP_CENTRE : MAP_PRIMARY; k < MAPS; ++k) {
+        PrimaryHit at = k == MAP_CENTRE ? centre : first;
+        vec2 coordinates = hit.uv;
+        if (k == MAP_CENTRE) {
+            if (at.primitive != NONE) coordinates = uvOn(from, cornersOf(from, at.primitive), at.barycentrics, 0);
+        } else if (k == MAP_RECONNECTION) {
+            at.instance = path.rcInstance;
+            at.primitive = connects ? path.rcPrimitive : NONE;
+            at.barycentrics = unpackBarycentrics(path.rcBarycentrics);
+            coordinates = hit.rcUv;
+        } else if (!keepsFirst) {
+            continue;
+        }
+        float stretch = 1;
+        bool there = at.primitive == NONE ||
+                     mapVertex(from, to, k == MAP_RECONNECTION ? mapsReconnection() : mapsPrimary(), at.instance, at.primitive, at.barycentrics, coordinates, stretch);
+        if (k == MAP_CENTRE) {
+            // Tells how much of the confidence of last frame is left to the pixel, and asks nothing of the samples, as confidence must not.
+            p.origins.kept = there ? 1 : 0;
+            if (!holdsPath(path)) return false;
+            continue;
+        }
+        if (!there) return false;
+        jacobian *= stretch;
+        if (k == MAP_PRIMARY) {
+            first = at;
+        } else if (connects) {
+            path.rcPrimitive = at.primitive;
+            path.rcBarycentrics = packBarycentrics(at.barycentrics);
+        }
+    }
     return true;
-}
-
-// Starts a shift that keeps the first hit. `target`: the pixel it lands in.
-bool scatter(inout Path p, World from, World to, Reservoir path, SampleHit hit, out ivec2 target) {
-    target = ivec2(0);
-    if (!holdsPath(path)) return false;
-    PrimaryHit first = hit.hit;
-    float ofPrimary = 1, ofReconnection;
-    if (first.primitive != NONE && !mapVertex(from, to, mapsPrimary(), first.instance, first.primitive, first.barycentrics, hit.uv, ofPrimary)) return false;
-    if (!mapReconnection(from, to, path, hit, ofReconnection)) return false;
-    if (!project(to, first, cameraRay(from, hit.hit.film, hit.hit.lens).direction)) return false;
-    target = min(ivec2(first.film * vec2(frameSize())), ivec2(frameSize()) - 1);
-    float jacobian = ofPrimary * ofReconnection * jacobianRatio(filmTerm(to, first), filmTerm(from, hit.hit));
-    return shiftStartAt(p.shift, to, path, hit, first, jacobian, p.refresh);
 }
 
 void begin(inout Path p, ivec2 pixel) {
@@ -98,19 +109,19 @@ void begin(inout Path p, ivec2 pixel) {
     p.before = pixelBefore(pixel, motion(pixel));
     p.hasBefore = inside(p.before);
     p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, worldPrev()));
-    p.origins = Origins(0, 0, keepsFirstHit(hits(place(pixel))) ? 1 : 0);
+    p.origins = Origins(0, 0, 0, 0);
 }
 
 // Takes in what the item's shift has given.
 void finish(inout Path p, ivec2 pixel, uint item) {
     bool good = p.running && p.shift.jacobian > 0;
     if (item == SCATTER || item == GATHER) {
-        Landing landing = Landing(NONE, 0, p.shift.jacobian, p.pHat, p.confidence);
+        Landing landing = Landing(NONE, 0, p.shift.jacobian, p.pHat, p.confidence, uvec3(0));
         Reservoir path = p.shift.path;
         path.W = p.W;
         if (good && item == SCATTER) {
             landing.target = p.target;
-            landing.order = atomicAdd(OutUint(passBlock().counts.address).at[p.target], 1);
+            landing.order = atomicAdd(OutCounts(passBlock().counts.address).at[p.target], 1);
             storeShifted(place(pixel), path);
             storeShiftedSamples(place(pixel), p.shift.hit);
         } else if (good) {
@@ -127,40 +138,45 @@ void finish(inout Path p, ivec2 pixel, uint item) {
     else p.origins.gathered = from;
 }
 
-bool start(inout Path p, World w, ivec2 pixel, uint item) {
-    World last = worldPrev();
+// Starts the shift of an item, to World `to`.
+bool start(inout Path p, World to, ivec2 pixel, uint item) {
+    bool back = item == SCATTER_BACK || item == GATHER_BACK, splats = item == SCATTER || item == SCATTER_BACK;
+    World from = scene;
+    if (!back) from = worldPrev();
+    if (!splats && !p.hasBefore) return false;
+    ivec2 past = splats ? pixel : p.before;  // whose confidence counts; of SCATTER_BACK that is not known yet
     Reservoir path = p.own;
     SampleHit hit = p.ownHit;
-    ivec2 landing;
-    if (item == SCATTER) {
-        path = history(place(pixel));
-        hit = historySamples(place(pixel));
-        p.confidence = capped(path);
-        p.pHat = target(path);
-        p.W = path.W;
-        bool begun = p.confidence > 0 && scatter(p, last, scene, path, hit, landing);
-        p.target = place(landing);
-        return begun;
+    if (item != SCATTER_BACK) {
+        Reservoir old = history(place(past));
+        p.confidence = capped(old);
+        if (p.confidence == 0) return false;
+        if (!back) {
+            path = old;
+            hit = historySamples(place(past));
+            p.pHat = target(path);
+            p.W = path.W;
+        }
     }
-    if (item == SCATTER_BACK) {
-        if (!scatter(p, scene, last, path, hit, landing)) return false;
-        p.confidence = capped(history(place(landing)));
-        return p.confidence > 0;
-    }
-    if (!p.hasBefore) return false;
-    Reservoir past = history(place(p.before));
-    p.confidence = capped(past);
-    if (p.confidence == 0) return false;
+    if (item == SCATTER && !holdsPath(path)) return false;
+    PrimaryHit first = hit.hit;
     float jacobian;
-    if (item == GATHER) {
-        hit = historySamples(place(p.before));
-        p.pHat = target(past);
-        p.W = past.W;
-        return mapReconnection(last, scene, past, hit, jacobian) &&
-               shiftStart(p.shift, w, past, hit, p.before, pixel, frameSize(), hits(place(pixel)), jacobian, p.refresh);
+    if (!mapPath(p, from, to, item, hits(place(pixel)), first, path, hit, jacobian)) return false;
+    if (!splats) {
+        ivec2 here = back ? pixel : p.before, there = back ? p.before : pixel;
+        PrimaryHit centre = hits(place(pixel));
+        if (back) centre = hitsPrev(place(p.before));
+        return shiftStart(p.shift, to, path, hit, here, there, frameSize(), centre, jacobian, p.refresh);
     }
-    return mapReconnection(scene, last, path, hit, jacobian) &&
-           shiftStart(p.shift, w, path, hit, pixel, p.before, frameSize(), hitsPrev(place(p.before)), jacobian, p.refresh);
+    if (!project(to, first, cameraRay(from, hit.hit.film, hit.hit.lens).direction)) return false;
+    ivec2 landing = min(ivec2(first.film * vec2(frameSize())), ivec2(frameSize()) - 1);
+    if (back) {
+        p.confidence = capped(history(place(landing)));
+        if (p.confidence == 0) return false;
+    }
+    p.target = place(landing);
+    jacobian *= jacobianRatio(filmTerm(to, first), filmTerm(from, hit.hit));
+    return shiftStartAt(p.shift, to, path, hit, first, jacobian, p.refresh);
 }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
@@ -176,10 +192,10 @@ bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rul
 
 void pathEnd(Path p, World w, ivec2 pixel) {
     uint items = pathItems();
-    Landing nowhere = Landing(NONE, 0, 0, 0, 0);
+    Landing nowhere = Landing(NONE, 0, 0, 0, 0, uvec3(0));
     if (items == 0) {
         storeLandings(place(pixel), nowhere);
-        p.origins = Origins(0, 0, 0);
+        p.origins = Origins(0, 0, 0, 0);
     } else {
         finish(p, pixel, items - 1);
     }

@@ -185,8 +185,6 @@ Surface livery(const glm::vec2& p, const Noise& noise) {
     return s;
 }
 
-}  // namespace
-
 void writePlane(const std::filesystem::path& folder) {
     Glb glb;
     Mesh half = fuselage();
@@ -228,5 +226,9 @@ void writePlane(const std::filesystem::path& folder) {
     addWall(glb, {.name = "plaster", .color = {0.42f, 0.46f, 0.50f}, .roughness = 0.95f}, {-9, 6, -3.2f}, {18, 0, 0}, {0, -9, 0});
     glb.write(folder / "plane.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(plane, writePlane)
 
 }  // namespace lodestir::generate

@@ -49,8 +49,6 @@ Textures paintField(const Wood& light, const Wood& dark) {
     });
 }
 
-}  // namespace
-
 void writeChessboard(const std::filesystem::path& folder) {
     Glb glb;
     const Wood boxwood{.early = {0.66f, 0.47f, 0.25f}, .late = {0.50f, 0.31f, 0.13f}, .roughness = 0.20f};
@@ -105,5 +103,9 @@ void writeChessboard(const std::filesystem::path& folder) {
     glb.addNode(shade);
     glb.write(folder / "chessboard.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(chessboard, writeChessboard)
 
 }  // namespace lodestir::generate

@@ -87,8 +87,6 @@ void addObject(Glb& glb, const std::string& name, int material, const Mesh& mesh
     glb.addNode(model, placement);
 }
 
-}  // namespace
-
 void writeCornell(const std::filesystem::path& folder) {
     Glb classic;
     const Paints paints = addPaints(classic);
@@ -114,5 +112,9 @@ void writeCornell(const std::filesystem::path& folder) {
     addObject(glossy, "gold_sphere", gold, sphere(128, 64), {.translation = {4.02f, 0.751f, 1.35f}, .scale = glm::vec3(0.75f)});
     glossy.write(folder / "cornell_glossy.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(cornell, writeCornell)
 
 }  // namespace lodestir::generate

@@ -57,8 +57,6 @@ Mesh face(const glm::mat3& turn) {
     return mesh;
 }
 
-}  // namespace
-
 void writeCube(const std::filesystem::path& folder) {
     Glb glb;
     const Noise noise{31};
@@ -92,5 +90,9 @@ void writeCube(const std::filesystem::path& folder) {
     addWall(glb, {.name = "plaster", .color = {0.52f, 0.48f, 0.43f}, .roughness = 0.95f}, {-6, 4, -1.6f}, {12, 0, 0}, {0, -6, 0});
     glb.write(folder / "cube.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(cube, writeCube)
 
 }  // namespace lodestir::generate

@@ -228,8 +228,6 @@ void writeLights(const std::filesystem::path& folder) {
     c.glb.write(folder / "ensemble_lights.glb");
 }
 
-}  // namespace
-
 void writeEnsembleRooms(const std::filesystem::path& folder) {
     writeDiffuse(folder);
     writeGlossy(folder);
@@ -237,5 +235,9 @@ void writeEnsembleRooms(const std::filesystem::path& folder) {
     writeGlass(folder);
     writeLights(folder);
 }
+
+}  // namespace
+
+LODESTIR_SCENE(ensemble_rooms, writeEnsembleRooms)
 
 }  // namespace lodestir::generate

@@ -146,12 +146,14 @@ void writeLens(const std::filesystem::path& folder) {
     c.glb.write(folder / "ensemble_lens.glb");
 }
 
-}  // namespace
-
 void writeEnsembleViews(const std::filesystem::path& folder) {
     writeEnvironment(folder);
     writeMoving(folder);
     writeLens(folder);
 }
+
+}  // namespace
+
+LODESTIR_SCENE(ensemble_views, writeEnsembleViews)
 
 }  // namespace lodestir::generate

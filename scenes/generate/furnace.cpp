@@ -7,6 +7,8 @@
 
 namespace lodestir::generate {
 
+namespace {
+
 void writeFurnace(const std::filesystem::path& folder) {
     Composition c;
     Material clay = matt("clay", glm::vec3(0.5f));
@@ -20,5 +22,9 @@ void writeFurnace(const std::filesystem::path& folder) {
     c.put("ball", all, faceted(sphere(12, 8)), {.translation = {0.62f, 1.4f, -0.1f}, .scale = {0.22f, 0.3f, 0.22f}});
     c.glb.write(folder / "furnace.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(furnace, writeFurnace)
 
 }  // namespace lodestir::generate

@@ -2,6 +2,8 @@
 // Binary glTF writer: see glb.h. Section numbers are those of the glTF 2.0 specification.
 #include "glb.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -45,6 +47,26 @@ void Model::add(int material, const Mesh& mesh) {
     append(part == parts.end() ? parts.emplace_back(material, Mesh{}).second : part->second, mesh);
 }
 
+struct Glb::Tables {
+    json pictures = json::array(), textures = json::array(), materials = json::array();
+    json views = json::array(), accessors = json::array();
+    json meshes = json::array(), nodes = json::array(), lights = json::array();
+    json channels = json::array(), samplers = json::array();  ///< of the one animation
+    std::vector<json> geometries;                             ///< primitives without their material
+
+    int addPlacedNode(json node, const Placement& placement) {
+        if (placement.translation != glm::vec3(0)) node["translation"] = array(placement.translation);
+        const glm::quat& q = placement.rotation;
+        if (q != glm::quat(1, 0, 0, 0)) node["rotation"] = array(glm::vec4(q.x, q.y, q.z, q.w));
+        if (placement.scale != glm::vec3(1)) node["scale"] = array(placement.scale);
+        nodes.push_back(node);
+        return int(nodes.size()) - 1;
+    }
+};
+
+Glb::Glb() : tables(std::make_unique<Tables>()) {}
+Glb::~Glb() = default;
+
 void Glb::use(const std::string& extension) {
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) extensions.push_back(extension);
 }
@@ -55,24 +77,24 @@ int Glb::addView(const void* data, size_t bytes, int target) {
     if (target) view["target"] = target;
     const auto* first = static_cast<const uint8_t*>(data);
     binary.insert(binary.end(), first, first + bytes);
-    views.push_back(view);
-    return int(views.size()) - 1;
+    tables->views.push_back(view);
+    return int(tables->views.size()) - 1;
 }
 
 int Glb::addAccessor(const void* data, size_t count, int components, int componentType, int target) {
     const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     const size_t size = componentType == unsignedShort ? 2 : 4;
     const int view = addView(data, count * size * size_t(components), target);
-    accessors.push_back({{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", types[components]}});
-    return int(accessors.size()) - 1;
+    tables->accessors.push_back({{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", types[components]}});
+    return int(tables->accessors.size()) - 1;
 }
 
 int Glb::addPicture(const std::string& name, const Picture& picture) {
     const std::vector<uint8_t> file = encodePng(picture);
     const int view = addView(file.data(), file.size(), 0);
-    pictures.push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
-    textures.push_back({{"source", int(pictures.size()) - 1}, {"sampler", 0}});
-    return int(textures.size()) - 1;
+    tables->pictures.push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
+    tables->textures.push_back({{"source", int(tables->pictures.size()) - 1}, {"sampler", 0}});
+    return int(tables->textures.size()) - 1;
 }
 
 Material Glb::dressed(Material material, const Textures& painted) {
@@ -120,8 +142,8 @@ int Glb::addMaterial(const Material& m) {
         extended["KHR_materials_specular"] = {{"specularFactor", tidy(m.specular)}, {"specularColorFactor", array(m.specularColor)}};
     for (const auto& [name, value] : extended.items()) use(name);
     if (!extended.empty()) material["extensions"] = extended;
-    materials.push_back(material);
-    return int(materials.size()) - 1;
+    tables->materials.push_back(material);
+    return int(tables->materials.size()) - 1;
 }
 
 int Glb::addGeometry(const Mesh& mesh) {
@@ -139,8 +161,8 @@ int Glb::addGeometry(const Mesh& mesh) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const Vertex& v : mesh.vertices) low = glm::min(low, v.position), high = glm::max(high, v.position);
     // Bounds must equal the stored floats (3.6.2.5), so they aren't rounded.
-    accessors.back()["min"] = {low.x, low.y, low.z};
-    accessors.back()["max"] = {high.x, high.y, high.z};
+    tables->accessors.back()["min"] = {low.x, low.y, low.z};
+    tables->accessors.back()["max"] = {high.x, high.y, high.z};
     attributes["NORMAL"] = gather(3, &Vertex::normal);
     attributes["TEXCOORD_0"] = gather(2, &Vertex::uv);
     if (mesh.hasTangents) attributes["TANGENT"] = gather(4, &Vertex::tangent);
@@ -153,44 +175,35 @@ int Glb::addGeometry(const Mesh& mesh) {
     } else {
         indices = addAccessor(mesh.indices.data(), mesh.indices.size(), 1, unsignedInt, elementBuffer);
     }
-    geometries.push_back({{"attributes", attributes}, {"indices", indices}});
-    return int(geometries.size()) - 1;
+    tables->geometries.push_back({{"attributes", attributes}, {"indices", indices}});
+    return int(tables->geometries.size()) - 1;
 }
 
 int Glb::addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial) {
     json primitives = json::array();
     for (const auto& [geometry, material] : geometryAndMaterial) {
-        json primitive = geometries.at(size_t(geometry));
+        json primitive = tables->geometries.at(size_t(geometry));
         primitive["material"] = material;
-        if (materials.at(size_t(material)).contains("normalTexture") && !primitive["attributes"].contains("TANGENT"))
+        if (tables->materials.at(size_t(material)).contains("normalTexture") && !primitive["attributes"].contains("TANGENT"))
             throw std::logic_error("mesh '" + name + "': a normal-mapped part has no tangents");
         primitives.push_back(primitive);
     }
-    meshes.push_back({{"name", name}, {"primitives", primitives}});
-    return int(meshes.size()) - 1;
+    tables->meshes.push_back({{"name", name}, {"primitives", primitives}});
+    return int(tables->meshes.size()) - 1;
 }
 
 int Glb::addMesh(const Model& model) {
     std::vector<std::pair<int, int>> parts;
     for (const auto& [material, part] : model.parts) {
         Mesh mesh = part;
-        if (materials.at(size_t(material)).contains("normalTexture") && !mesh.hasTangents) computeTangents(mesh);
+        if (tables->materials.at(size_t(material)).contains("normalTexture") && !mesh.hasTangents) computeTangents(mesh);
         parts.emplace_back(addGeometry(mesh), material);
     }
     return addMesh(model.name, parts);
 }
 
-int Glb::addPlacedNode(json node, const Placement& placement) {
-    if (placement.translation != glm::vec3(0)) node["translation"] = array(placement.translation);
-    const glm::quat& q = placement.rotation;
-    if (q != glm::quat(1, 0, 0, 0)) node["rotation"] = array(glm::vec4(q.x, q.y, q.z, q.w));
-    if (placement.scale != glm::vec3(1)) node["scale"] = array(placement.scale);
-    nodes.push_back(node);
-    return int(nodes.size()) - 1;
-}
-
 int Glb::addNode(const std::string& name, int mesh, const Placement& placement) {
-    return addPlacedNode({{"name", name}, {"mesh", mesh}}, placement);
+    return tables->addPlacedNode({{"name", name}, {"mesh", mesh}}, placement);
 }
 
 int Glb::addNode(const Model& model, const Placement& placement) { return addNode(model.name, addMesh(model), placement); }
@@ -202,47 +215,47 @@ int Glb::addNode(const LightSource& light, const Placement& placement) {
     if (light.kind == LightSource::Kind::spot)
         source["spot"] = {{"innerConeAngle", tidy(glm::radians(light.innerDegrees))},
                           {"outerConeAngle", tidy(glm::radians(light.outerDegrees))}};
-    lights.push_back(source);
+    tables->lights.push_back(source);
     use("KHR_lights_punctual");
-    return addPlacedNode({{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", int(lights.size()) - 1}}}}}}, placement);
+    return tables->addPlacedNode({{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", int(tables->lights.size()) - 1}}}}}}, placement);
 }
 
 void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values) {
     if (seconds.empty() || seconds.size() != values.size()) throw std::logic_error("an animation needs a value for each of its times");
     const int input = addAccessor(seconds.data(), seconds.size(), 1, floating, 0);
-    accessors.back()["min"] = json::array({seconds.front()});  // 3.11: the input of a sampler states its bounds
-    accessors.back()["max"] = json::array({seconds.back()});
+    tables->accessors.back()["min"] = json::array({seconds.front()});  // 3.11: the input of a sampler states its bounds
+    tables->accessors.back()["max"] = json::array({seconds.back()});
     const int components = motion == Motion::rotation ? 4 : 3;
     std::vector<float> numbers;
     for (const glm::vec4& value : values)
         for (int k = 0; k < components; ++k) numbers.push_back(value[k]);
     const int output = addAccessor(numbers.data(), values.size(), components, floating, 0);
-    samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
-    channels.push_back({{"sampler", int(samplers.size()) - 1},
+    tables->samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+    tables->channels.push_back({{"sampler", int(tables->samplers.size()) - 1},
                         {"target", {{"node", node}, {"path", motion == Motion::rotation ? "rotation" : "translation"}}}});
 }
 
 void Glb::write(const std::filesystem::path& path) const {
     json roots = json::array();
-    for (size_t i = 0; i < nodes.size(); ++i) roots.push_back(i);
+    for (size_t i = 0; i < tables->nodes.size(); ++i) roots.push_back(i);
 
     json root;
     root["asset"] = {{"version", "2.0"}, {"generator", "lodestir generate_scenes"}};
     root["scene"] = 0;
     root["scenes"] = json::array({{{"nodes", roots}}});
-    root["nodes"] = nodes;
-    root["meshes"] = meshes;
-    root["materials"] = materials;
-    root["accessors"] = accessors;
-    root["bufferViews"] = views;
+    root["nodes"] = tables->nodes;
+    root["meshes"] = tables->meshes;
+    root["materials"] = tables->materials;
+    root["accessors"] = tables->accessors;
+    root["bufferViews"] = tables->views;
     root["buffers"] = json::array({{{"byteLength", binary.size()}}});
-    if (!pictures.empty()) {
-        root["images"] = pictures;
-        root["textures"] = textures;
+    if (!tables->pictures.empty()) {
+        root["images"] = tables->pictures;
+        root["textures"] = tables->textures;
         root["samplers"] = json::array({{{"magFilter", linear}, {"minFilter", linearMipmapLinear}, {"wrapS", repeat}, {"wrapT", repeat}}});
     }
-    if (!channels.empty()) root["animations"] = json::array({{{"channels", channels}, {"samplers", samplers}}});
-    if (!lights.empty()) root["extensions"]["KHR_lights_punctual"]["lights"] = lights;
+    if (!tables->channels.empty()) root["animations"] = json::array({{{"channels", tables->channels}, {"samplers", tables->samplers}}});
+    if (!tables->lights.empty()) root["extensions"]["KHR_lights_punctual"]["lights"] = tables->lights;
     if (!extensions.empty()) root["extensionsUsed"] = extensions;
 
     // Section 4.4: twelve bytes of header, then a JSON chunk padded with spaces and a binary chunk padded with zeros.

@@ -2,15 +2,16 @@
 // Writes a binary glTF 2.0 file: geometries, materials with embedded PNG pictures, meshes and nodes that share them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
 
 #include "mesh.h"
 #include "picture.h"
@@ -87,6 +88,9 @@ struct Model {
 
 class Glb {
 public:
+    Glb();
+    ~Glb();
+
     int addPicture(const std::string& name, const Picture& picture);
 
     /// `material` wearing painted pictures; copies of it with another colour share them.
@@ -112,19 +116,14 @@ public:
     void write(const std::filesystem::path& path) const;
 
 private:
-    int addView(const void* data, size_t bytes, int target);
-    int addAccessor(const void* data, size_t count, int components, int componentType, int target);
-
-    nlohmann::json pictures = nlohmann::json::array(), textures = nlohmann::json::array(), materials = nlohmann::json::array();
-    nlohmann::json views = nlohmann::json::array(), accessors = nlohmann::json::array();
-    nlohmann::json meshes = nlohmann::json::array(), nodes = nlohmann::json::array(), lights = nlohmann::json::array();
-    nlohmann::json channels = nlohmann::json::array(), samplers = nlohmann::json::array();  ///< of the one animation
-    std::vector<nlohmann::json> geometries;                                                 ///< primitives without their material
+    struct Tables;  ///< what was added so far, as JSON; that library is no light one to include
+    std::unique_ptr<Tables> tables;
     std::vector<std::string> extensions;
     std::vector<uint8_t> binary;
 
+    int addView(const void* data, size_t bytes, int target);
+    int addAccessor(const void* data, size_t count, int components, int componentType, int target);
     void use(const std::string& extension);
-    int addPlacedNode(nlohmann::json node, const Placement& placement);
 };
 
 }  // namespace lodestir::generate

@@ -149,8 +149,6 @@ void addWallsAndPlants(Glb& glb, const Palette& palette, const Room& room) {
     glb.addNode(rubberFig("sill_plant", 23, 0.30f, 22, green), {.translation = sill + glm::vec3(0, 0.11f, 0)});
 }
 
-}  // namespace
-
 void writeInterior(const std::filesystem::path& folder) {
     Glb glb;
     const Room room;
@@ -163,5 +161,9 @@ void writeInterior(const std::filesystem::path& folder) {
     addWallsAndPlants(glb, palette, room);
     glb.write(folder / "interior.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(interior, writeInterior)
 
 }  // namespace lodestir::generate

@@ -198,8 +198,6 @@ void addSpheres(Glb& glb) {
     row.put("glow", glb.addMesh("glow", {{glb.addGeometry(sphere(64, 32)), glow}}), 8, false);
 }
 
-}  // namespace
-
 void writeMaterialSpheres(const std::filesystem::path& folder) {
     Glb glb;
 
@@ -234,5 +232,9 @@ void writeMaterialSpheres(const std::filesystem::path& folder) {
     glb.addNode(softBox("background", {0, 0.5f, -1.9f}, {0, 3.0f, -4.5f}, {8.5f, 0.6f}, lamp("background", {5.0f, 6.0f, 7.6f}), tray));
     glb.write(folder / "material_spheres.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(material_spheres, writeMaterialSpheres)
 
 }  // namespace lodestir::generate

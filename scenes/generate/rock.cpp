@@ -126,8 +126,6 @@ void addPlants(Glb& glb, const Terrain& terrain) {
     scatter("shrub", shrubs, {90, 11, 90, 0.8f, 0.8f, 2.2f, false}, 79);
 }
 
-}  // namespace
-
 void writeRock(const std::filesystem::path& folder) {
     Glb glb;
     const Stone stone(20, {.size = {1.62f, 1.32f, 1.36f}, .facets = 15, .sharpness = 24, .relief = 1});
@@ -144,5 +142,9 @@ void writeRock(const std::filesystem::path& folder) {
     glb.addNode(ground);
     glb.write(folder / "rock.glb");
 }
+
+}  // namespace
+
+LODESTIR_SCENE(rock, writeRock)
 
 }  // namespace lodestir::generate

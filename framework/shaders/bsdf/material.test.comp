@@ -11,11 +11,11 @@ const uint COUNT = 8u;
 
 void write() {
     for (uint v = 0u; v < 3u; ++v) {
-        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec3(v == 1u ? 1.0 : 0.0, v == 2u ? 1.0 : 0.0, 0.0);
-        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(vec3(0, 0, 1)), packTangent(vec4(1, 0, 0, 1)), vec2(0), vec2(0), 0xff80ff00u);
+        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec4(vec3(v == 1u ? 1.0 : 0.0, v == 2u ? 1.0 : 0.0, 0.0), 0);
+        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(vec3(0, 0, 1)), packTangent(vec4(1, 0, 0, 1)), vec2(0), vec2(0), 0xff80ff00u, 0u);
     }
     TestInstances(testArray(TEST_INSTANCES)).at[0] = testInstance(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0));
-    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 1u, 1u, 1u, 0u);
+    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 1u, 1u, 1u, 0u, uvec2(0));
     TestUints(testArray(TEST_TEXELS)).at[0] = 51u | 102u << 8 | 153u << 16 | 204u << 24;  // 0.2, 0.4, 0.6, 0.8
     MaterialRecord r[COUNT];
     for (uint m = 0u; m < COUNT; ++m) r[m] = testMaterial();
@@ -42,7 +42,7 @@ void write() {
         none[map] = testSlot(NONE);
         all[map] = testSlot(0u);
     }
-    LayersRecord layers = LayersRecord(vec3(1, 2, 0), 0.5, vec3(0.5, 0.25, 1), 0.5, vec2(0.6, 0.8), 0.5, 0.5, 0.8, 2.0, none);
+    LayersRecord layers = LayersRecord(vec3(1, 2, 0), 0.5, vec3(0.5, 0.25, 1), 0.5, vec2(0.6, 0.8), 0.5, 0.5, 0.8, 2.0, none, uvec2(0));
     TestLayers(testArray(TEST_LAYERS)).at[0] = layers;
     layers.maps = all;
     TestLayers(testArray(TEST_LAYERS)).at[1] = layers;

@@ -21,7 +21,7 @@ void write() {
     for (uint i = 0u; i < TEXELS; ++i) given += 1.0 - keepOf(i);
     for (uint i = 0u; i < TEXELS; ++i) {
         float density = i == SUN ? 1.0 + given : keepOf(i);  // per unit of uv: probability times the number of texels
-        TestEnvironment(testArray(TEST_ENVIRONMENT)).at[i] = EnvironmentTexel(radianceOf(i), density, keepOf(i), SUN);
+        TestEnvironment(testArray(TEST_ENVIRONMENT)).at[i] = EnvironmentTexel(radianceOf(i), density, keepOf(i), SUN, uvec2(0));
     }
     TestLights(testArray(TEST_LIGHTS)).at[0] = testLight(LIGHT_POINT, 1.0 - PMF);
     TestLights(testArray(TEST_LIGHTS)).at[1] = testLight(LIGHT_ENVIRONMENT, PMF);

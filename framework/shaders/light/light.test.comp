@@ -19,8 +19,8 @@ void write() {
                                      vec3(0, 0, 0), vec3(0, 1, 0), vec3(1, 0, 0));
     uint down = packNormal(vec3(0, 0, -1));
     for (uint i = 0u; i < 7u; ++i) {
-        TestPositions(testArray(TEST_POSITIONS)).at[i] = positions[i];
-        TestVertices(testArray(TEST_VERTICES)).at[i] = VertexRecord(down, 0u, 0.5 * positions[i].xy + 0.5, vec2(0), ~0u);
+        TestPositions(testArray(TEST_POSITIONS)).at[i] = vec4(positions[i], 0);
+        TestVertices(testArray(TEST_VERTICES)).at[i] = VertexRecord(down, 0u, 0.5 * positions[i].xy + 0.5, vec2(0), ~0u, 0u);
     }
     TestPrimitives(testArray(TEST_PRIMITIVES)).at[0] = PrimitiveRecord(0u, 1u, 2u, 0u);
     TestPrimitives(testArray(TEST_PRIMITIVES)).at[1] = PrimitiveRecord(0u, 2u, 3u, 0u);
@@ -45,7 +45,7 @@ void write() {
     TestMaterials(testArray(TEST_MATERIALS)).at[1] = both;
     TestMaterials(testArray(TEST_MATERIALS)).at[2] = testMaterial();
     // Red 0.2 and 1.0 in the two halves along x, unfiltered: mean 0.6.
-    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 2u, 1u, 1u, TEXTURE_NEAREST | TEXTURE_CLAMP_U);
+    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 2u, 1u, 1u, TEXTURE_NEAREST | TEXTURE_CLAMP_U, uvec2(0));
     TestUints(testArray(TEST_TEXELS)).at[0] = 0xffffff33u;
     TestUints(testArray(TEST_TEXELS)).at[1] = 0xffffffffu;
     const uint types[LIGHTS] = uint[](LIGHT_TRIANGLE, LIGHT_TRIANGLE, LIGHT_TRIANGLE, LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL);

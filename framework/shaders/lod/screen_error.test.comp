@@ -21,9 +21,9 @@ const uint FLATTENED = 3u; // twice as large along one axis, half as large along
 void write() {
     for (uint level = 0u; level < 4u; ++level)
         for (uint mesh = 0u; mesh < 2u; ++mesh)
-            TestLevels(testArray(TEST_LEVELS)).at[mesh * LEVELS + level] = LevelRecord(0u, 1u, level == 0u ? 0.0 : 0.01 * exp2(2.0 * float(level - 1u)));
-    TestMeshes(testArray(TEST_MESHES)).at[0] = MeshRecord(vec3(0), 1.0, 4u);
-    TestMeshes(testArray(TEST_MESHES)).at[1] = MeshRecord(vec3(0), 1.0, 1u);
+            TestLevels(testArray(TEST_LEVELS)).at[mesh * LEVELS + level] = LevelRecord(0u, 1u, level == 0u ? 0.0 : 0.01 * exp2(2.0 * float(level - 1u)), 0u);
+    TestMeshes(testArray(TEST_MESHES)).at[0] = MeshRecord(vec3(0), 1.0, 4u, uvec3(0));
+    TestMeshes(testArray(TEST_MESHES)).at[1] = MeshRecord(vec3(0), 1.0, 1u, uvec3(0));
     TestInstances instances = TestInstances(testArray(TEST_INSTANCES));
     instances.at[FAR_ONE] = instances.at[PINNED] = testInstance(vec4(2, 0, 0, 0), vec4(0, 2, 0, 0), vec4(0, 0, 2, -12));
     instances.at[PINNED].mesh = 1u;

@@ -12,6 +12,7 @@ struct UvNode {
     vec2 low, high;
     uint first;
     uint count;  // triangles of a leaf; 0: inner node
+    uvec2 pad;
 };
 
 LODESTIR_ARRAY(UvNodeArray, UvNode)

@@ -59,7 +59,11 @@ uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromI
 /// space; a way there and back needs the same one.
 MappedPoint mapPoint(World w, UvIndex index, uint mesh, uint primitive, vec2 uv, uint from, uint to, bool matching, mat3 space) {
     MappedPoint none = MappedPoint(NONE, vec2(0.0), 0.0);
-    UvFound here = uvLookup(w, index, mesh, from, uv), there = uvLookup(w, index, mesh, to, uv);
+    UvFound here, there;
+    for (uint i = 0u; i < 2u; ++i) {  // one lookup in a loop compiles in half the time of two
+        here = there;
+        there = uvLookup(w, index, mesh, i == 0u ? from : to, uv);
+    }
     if (here.count == 0u || there.count == 0u) return none;
     uint partner;
     if (matching) {

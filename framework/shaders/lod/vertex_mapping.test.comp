@@ -21,8 +21,8 @@ const uint FLAT = 4u;      // a square and a triangle without area in UV
 uint vertexCount = 0u, primitiveCount = 0u, nodeCount = 0u, listCount = 0u;
 
 uint addVertex(vec3 position, vec2 uv) {
-    TestPositions(testArray(TEST_POSITIONS)).at[vertexCount] = position;
-    TestVertices(testArray(TEST_VERTICES)).at[vertexCount] = VertexRecord(0u, 0u, uv, vec2(0), ~0u);
+    TestPositions(testArray(TEST_POSITIONS)).at[vertexCount] = vec4(position, 0);
+    TestVertices(testArray(TEST_VERTICES)).at[vertexCount] = VertexRecord(0u, 0u, uv, vec2(0), ~0u, 0u);
     return vertexCount++;
 }
 
@@ -46,9 +46,9 @@ void addSquare(float x, float size, bool mirrored, bool otherDiagonal) {
 void closeLevel(uint mesh, uint level, uint first) {
     TestUvNodes nodes = TestUvNodes(testArray(TEST_UV_NODES));
     TestUints(testArray(TEST_UV_ROOTS)).at[mesh * LEVELS + level] = nodeCount;
-    nodes.at[nodeCount] = UvNode(vec2(0), vec2(1), nodeCount + 1u, 0u);
-    nodes.at[nodeCount + 1u] = UvNode(vec2(0), vec2(1), first, 1u);
-    nodes.at[nodeCount + 2u] = UvNode(vec2(0), vec2(1), first + 1u, listCount - first - 1u);
+    nodes.at[nodeCount] = UvNode(vec2(0), vec2(1), nodeCount + 1u, 0u, uvec2(0));
+    nodes.at[nodeCount + 1u] = UvNode(vec2(0), vec2(1), first, 1u, uvec2(0));
+    nodes.at[nodeCount + 2u] = UvNode(vec2(0), vec2(1), first + 1u, listCount - first - 1u, uvec2(0));
     nodeCount += 3u;
 }
 

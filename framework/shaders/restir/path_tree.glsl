@@ -83,7 +83,7 @@ void treeStart(inout PathTree p, World w, uvec2 seed, vec2 film, vec2 lens) {
     p.suffix = vec3(1.0);
     p.rcUv = vec2(0.0);
     p.spine = emptyReservoir(1.0);
-    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), 0.0, vec2(0.0), vec2(0.0));
+    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), 0.0, vec2(0.0), vec2(0.0), uvec3(0));
     p.ray = cameraRay(w, film, lens);
     p.from = p.ray.origin;
     p.onward = p.ray;

@@ -43,7 +43,7 @@ void main() {
     TestReservoirs memory = TestReservoirs(testPush.results);
     Reservoir r = someReservoir(id);
     PrimaryHit primary = PrimaryHit(id, id + 1u, vec2(0.25, 0.5), vec2(0.125, 0.75), vec2(0.5, 0.0));
-    SampleHit h = SampleHit(primary, 0.625, vec2(-3.5, float(id)), vec2(7.0, 8.0));
+    SampleHit h = SampleHit(primary, 0.625, vec2(-3.5, float(id)), vec2(7.0, 8.0), uvec3(0));
     if (testPush.pass == 0u) {
         memory.scratch[id] = r;
         memory.hits[id] = h;

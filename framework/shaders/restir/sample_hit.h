@@ -14,11 +14,12 @@ struct SampleHit {
     // finds the same candidates there and back.
     vec2 uv;         // of x1
     vec2 rcUv;       // of the reconnection vertex x_k
+    uvec3 pad;
 };
 
 LODESTIR_SHARED_END
 LODESTIR_SHARED(SampleHit, "restir/sample_hit.h")
 #ifdef __cplusplus
-static_assert(sizeof(lodestir::SampleHit) == 52);
+static_assert(sizeof(lodestir::SampleHit) == 64);
 #endif
 #endif

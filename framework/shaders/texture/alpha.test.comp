@@ -10,11 +10,11 @@ layout(local_size_x = 8) in;
 void write() {
     for (uint v = 0u; v < 3u; ++v) {
         vec2 uv = vec2(v == 1u ? 1.0 : 0.0, v == 2u ? 1.0 : 0.0);
-        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec3(uv, 0.0);
-        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(0u, 0u, uv, uv.yx, v == 1u ? 0x00ffffffu : 0xff00ff00u);
+        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec4(vec3(uv, 0.0), 0);
+        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(0u, 0u, uv, uv.yx, v == 1u ? 0x00ffffffu : 0xff00ff00u, 0u);
     }
     // Alpha 0 on the left half, 1 on the right.
-    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 2u, 1u, 1u, TEXTURE_NEAREST);
+    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 2u, 1u, 1u, TEXTURE_NEAREST, uvec2(0));
     TestUints(testArray(TEST_TEXELS)).at[0] = 0x00ffffffu;
     TestUints(testArray(TEST_TEXELS)).at[1] = 0xffffffffu;
     for (uint m = 0u; m < 5u; ++m) {

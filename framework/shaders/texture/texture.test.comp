@@ -20,9 +20,9 @@ void write() {
     TestTextures textures = TestTextures(testArray(TEST_TEXTURES));
     const uint flags[6] = uint[](0u, TEXTURE_NEAREST, TEXTURE_CLAMP_U | TEXTURE_CLAMP_V, TEXTURE_MIRROR_U | TEXTURE_MIRROR_V,
                                  TEXTURE_CLAMP_U | TEXTURE_MIRROR_V, TEXTURE_NEAREST | TEXTURE_MIRROR_U);
-    for (uint i = 0u; i < 6u; ++i) textures.at[i] = TextureRecord(testArray(TEST_TEXELS), 4u, 2u, 3u, flags[i]);
-    textures.at[6] = TextureRecord(testArray(TEST_TEXELS) + 64ul, 256u, 1u, 1u, TEXTURE_SRGB | TEXTURE_NEAREST);
-    textures.at[7] = TextureRecord(testArray(TEST_TEXELS) + 64ul, 256u, 1u, 1u, TEXTURE_SRGB);
+    for (uint i = 0u; i < 6u; ++i) textures.at[i] = TextureRecord(testArray(TEST_TEXELS), 4u, 2u, 3u, flags[i], uvec2(0));
+    textures.at[6] = TextureRecord(testArray(TEST_TEXELS) + 64ul, 256u, 1u, 1u, TEXTURE_SRGB | TEXTURE_NEAREST, uvec2(0));
+    textures.at[7] = TextureRecord(testArray(TEST_TEXELS) + 64ul, 256u, 1u, 1u, TEXTURE_SRGB, uvec2(0));
 }
 
 // A read and what it must give; `at` in texels of the finest level.

@@ -20,8 +20,8 @@ void write() {
     for (uint v = 0u; v < 9u; ++v) {
         vec2 uv = vec2(v % 3u == 1u ? 1.0 : 0.0, v % 3u == 2u ? 1.0 : 0.0);
         vec3 n = v < 3u ? normalize(vec3(uv - 0.333, 2.0)) : v < 6u ? vec3(0, 0, 1) : vec3(0, 0, -1);
-        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec3(uv, 0.0);
-        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(n), packTangent(vec4(1, 0, 0, 1)), uv, vec2(0), ~0u);
+        TestPositions(testArray(TEST_POSITIONS)).at[v] = vec4(vec3(uv, 0.0), 0);
+        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(n), packTangent(vec4(1, 0, 0, 1)), uv, vec2(0), ~0u, 0u);
     }
     for (uint m = 0u; m < 3u; ++m) {
         MaterialRecord r = testMaterial();
@@ -29,7 +29,7 @@ void write() {
         TestMaterials(testArray(TEST_MATERIALS)).at[m] = r;
         TestPrimitives(testArray(TEST_PRIMITIVES)).at[m] = PrimitiveRecord(3u * m, 3u * m + 1u, 3u * m + 2u, m);
     }
-    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 1u, 1u, 1u, 0u);
+    TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 1u, 1u, 1u, 0u, uvec2(0));
     TestUints(testArray(TEST_TEXELS)).at[0] = 204u | 127u << 8 | 230u << 16;  // (0.6, -0.004, 0.804)
 }
 

@@ -11,7 +11,7 @@ const uint TEST_TEXTURES = 6u, TEST_LIGHTS = 7u, TEST_ENVIRONMENT = 8u, TEST_TEX
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestInstances { InstanceRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestPrimitives { PrimitiveRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestUints { uint at[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestPositions { vec3 at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestPositions { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestVertices { VertexRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestMaterials { MaterialRecord at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestLayers { LayersRecord at[]; };
@@ -34,7 +34,7 @@ World testWorld() {
     w.instances = InstanceArray(testArray(TEST_INSTANCES));
     w.primitives = PrimitiveArray(testArray(TEST_PRIMITIVES));
     w.emitters = UintArray(testArray(TEST_EMITTERS));
-    w.positions = Vec3Array(testArray(TEST_POSITIONS));
+    w.positions = Vec4Array(testArray(TEST_POSITIONS));
     w.vertices = VertexArray(testArray(TEST_VERTICES));
     w.materials = MaterialArray(testArray(TEST_MATERIALS));
     w.layers = LayersArray(testArray(TEST_LAYERS));
@@ -53,7 +53,7 @@ TextureSlotRecord testSlot(uint id) { return TextureSlotRecord(id, 0u, vec3(1, 0
 
 MaterialRecord testMaterial() {
     TextureSlotRecord none = testSlot(NONE);
-    return MaterialRecord(vec4(1), vec3(0), 0.0, 1.0, 1.0, 0.0, 1.5, vec3(0), 0.5, 0u, NONE, none, none, none, none, none);
+    return MaterialRecord(vec4(1), vec3(0), 0.0, 1.0, 1.0, 0.0, 1.5, vec3(0), 0.5, 0u, NONE, none, none, none, none, none, uvec2(0));
 }
 
 /// The identity, or any rows.
@@ -63,5 +63,5 @@ InstanceRecord testInstance(vec4 row0, vec4 row1, vec4 row2) {
 }
 
 LightRecord testLight(uint type, float pmf) {
-    return LightRecord(type, NONE, NONE, pmf, vec3(0), 0.0, vec3(0, -1, 0), 0.0, vec3(1), 1.0, 0u, 0.0);
+    return LightRecord(type, NONE, NONE, pmf, vec3(0), 0.0, vec3(0, -1, 0), 0.0, vec3(1), 1.0, 0u, 0.0, uvec2(0));
 }

@@ -17,8 +17,8 @@ struct TrianglePoint {
 };
 
 TrianglePoint pointOn(World w, uvec3 corners, vec2 barycentrics) {
-    vec3 a = w.positions.at[corners.x];
-    vec3 edge1 = w.positions.at[corners.y] - a, edge2 = w.positions.at[corners.z] - a;
+    vec3 a = w.positions.at[corners.x].xyz;
+    vec3 edge1 = w.positions.at[corners.y].xyz - a, edge2 = w.positions.at[corners.z].xyz - a;
     return TrianglePoint(a + barycentrics.x * edge1 + barycentrics.y * edge2, edge1, edge2);
 }
 

@@ -10,12 +10,13 @@ LODESTIR_SHARED_BEGIN
 const uint NONE = 0xffffffffu;  // no such index
 const uint LEVELS = 8u;         // most levels of a mesh: stride of World.roots
 
-// Attributes of a vertex that traversal does not need. 28 bytes.
+// Attributes of a vertex that traversal does not need.
 struct VertexRecord {
     uint normal;   // octahedral, snorm16 x 2
     uint tangent;  // the same with bit 0 replaced by the sign (1: bitangent = -cross(n, t)); 0: none (base/pack.glsl has the layouts)
     vec2 uv0, uv1;
     uint color;    // unorm8 x 4, linear
+    uint pad;
 };
 
 // A triangle for shading, in BVH order (Hit.primitive indexes it). Vertex indices are global.
@@ -56,6 +57,7 @@ struct LevelRecord {
     uint firstPrimitive;  // in World.primitives
     uint primitiveCount;
     float error;          // measured distance to level 0, object units
+    uint pad;
 };
 
 // What selecting a level asks of a mesh.
@@ -63,6 +65,7 @@ struct MeshRecord {
     vec3 center;   // of the sphere around all its levels, object space
     float radius;
     uint levels;   // that may be chosen: 1 where it must stay at its finest
+    uvec3 pad;
 };
 
 struct MaterialRecord {
@@ -78,6 +81,7 @@ struct MaterialRecord {
     uint flags;         // MATERIAL_*
     uint layers;        // index in World.layers, NONE: a plain material
     TextureSlotRecord baseColorMap, metallicRoughnessMap, normalMap, emissiveMap, transmissionMap;
+    uvec2 pad;
 };
 const uint MATERIAL_DOUBLE_SIDED = 1u;
 const uint MATERIAL_MASK = 2u;
@@ -97,6 +101,7 @@ struct LayersRecord {
     float anisotropy;
     float coat, coatRoughness, coatNormalScale;
     TextureSlotRecord maps[8]; // LAYER_*
+    uvec2 pad;
 };
 const uint LAYER_SPECULAR = 0u;         // A
 const uint LAYER_SPECULAR_COLOR = 1u;
@@ -113,6 +118,7 @@ struct TextureRecord {
     uint width, height;
     uint mips;
     uint flags;           // TEXTURE_*
+    uvec2 pad;
 };
 const uint TEXTURE_SRGB = 1u;
 const uint TEXTURE_NEAREST = 2u;
@@ -135,6 +141,7 @@ struct LightRecord {
     float aliasProbability;  // Vose's alias table: keep this light when u < aliasProbability, else take `alias`
     uint alias;
     float range;      // point, spot: distance of its end, 0: none
+    uvec2 pad;
 };
 const uint LIGHT_TRIANGLE = 0u;
 const uint LIGHT_POINT = 1u;
@@ -148,6 +155,7 @@ struct EnvironmentTexel {
     float density;
     float aliasProbability;
     uint alias;
+    uvec2 pad;
 };
 
 struct CameraRecord {
@@ -163,7 +171,7 @@ struct CameraRecord {
 
 #ifdef __cplusplus
 }  // namespace lodestir
-#define LODESTIR_ARRAY(name, T)
+#define LODESTIR_ARRAY(name, T) static_assert(sizeof(T) == sizeof(uint) || sizeof(T) % 16 == 0, "read in texels of 16 bytes where reading by address is slow");
 #define LODESTIR_ARRAY_OF(name) uint64_t
 namespace lodestir {
 #else
@@ -172,7 +180,7 @@ namespace lodestir {
 #endif
 
 LODESTIR_ARRAY(UintArray, uint)
-LODESTIR_ARRAY(Vec3Array, vec3)
+LODESTIR_ARRAY(Vec4Array, vec4)
 LODESTIR_ARRAY(VertexArray, VertexRecord)
 LODESTIR_ARRAY(PrimitiveArray, PrimitiveRecord)
 LODESTIR_ARRAY(LevelArray, LevelRecord)
@@ -204,7 +212,7 @@ struct World {
     LODESTIR_ARRAY_OF(LevelArray) meshLevels;        // mesh m at level l: meshLevels[m * LEVELS + l]
     LODESTIR_ARRAY_OF(MeshArray) meshes;
     LODESTIR_ARRAY_OF(UintArray) emitters;           // of each primitive: its place among its mesh's emissive triangles, NONE: not emissive
-    LODESTIR_ARRAY_OF(Vec3Array) positions;          // object space
+    LODESTIR_ARRAY_OF(Vec4Array) positions;          // xyz, object space
     LODESTIR_ARRAY_OF(VertexArray) vertices;
     LODESTIR_ARRAY_OF(MaterialArray) materials;
     LODESTIR_ARRAY_OF(LayersArray) layers;

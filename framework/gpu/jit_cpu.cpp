@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Which CPU lavapipe's compiler takes this one for.
+//
+// LLVM turns a read that differs from lane to lane into the CPU's gather instruction where it believes that instruction to be fast: with
+// AVX-512, and of the CPUs with AVX2 alone on Intel's from Skylake on. Elsewhere (Zen 1 to 3, Haswell) it writes a branch for each lane and
+// word. A kernel then has tens of thousands of branches, takes minutes to compile, and is slower, too: gathers pay there as well
+// (docs/rays.md has what was measured). There is no option for it; but LLVM asks a function of its own for the CPU's name, and a program
+// that has a function of that name is asked instead. The name only tunes: which instructions may be used is told to LLVM apart, by the driver.
+#include <framework/gpu/jit_cpu.h>
+
+#include <framework/core/api.h>
+
+#include <dlfcn.h>
+#include <link.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+namespace lodestir::gpu {
+
+/// Like llvm::StringRef.
+struct Name {
+    const char* data;
+    std::size_t size;
+};
+
+namespace {
+
+constexpr const char* symbol = "_ZN4llvm3sys14getHostCPUNameEv";
+
+#if defined(__x86_64__)
+/// Mesa's drivers can be told to use less than the CPU has; "avx": all but AVX-512.
+std::string_view overriddenCaps() {
+    const char* caps = std::getenv("GALLIUM_OVERRIDE_CPU_CAPS");
+    return caps ? caps : "";
+}
+bool hasAvx512() { return overriddenCaps().empty() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"); }
+/// AVX2 and all else that a Skylake client has of instructions which compilers use by themselves.
+bool hasAvx2() {
+    return (overriddenCaps().empty() || overriddenCaps() == "avx") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("movbe");
+}
+#else
+bool hasAvx512() { return false; }
+bool hasAvx2() { return false; }
+#endif
+
+/// LLVM's own function, in the library that the driver has brought along; nullptr where there is none.
+Name (*ownFunction())() {
+    void* function = nullptr;
+    dl_iterate_phdr(
+        [](dl_phdr_info* library, std::size_t, void* result) {
+            if (!std::strstr(library->dlpi_name, "libLLVM")) return 0;
+            void* handle = dlopen(library->dlpi_name, RTLD_LAZY | RTLD_NOLOAD);
+            if (!handle) return 0;
+            *static_cast<void**>(result) = dlsym(handle, symbol);
+            dlclose(handle);  // it was loaded before, and stays
+            return *static_cast<void**>(result) ? 1 : 0;
+        },
+        &function);
+    return reinterpret_cast<Name (*)()>(function);
+}
+
+}  // namespace
+
+extern "C" LODESTIR_API Name lodestirCpuName() asm("_ZN4llvm3sys14getHostCPUNameEv");
+extern "C" Name lodestirCpuName() {
+    if (hasAvx2() && !hasAvx512()) return {"skylake", 7};
+    const auto own = ownFunction();
+    return own ? own() : Name{"", 0};
+}
+
+Gathers gathersOfCpu() {
+    if (hasAvx512()) return Gathers::fast;
+    const bool willAskUs = ownFunction() && dlsym(RTLD_DEFAULT, symbol) == reinterpret_cast<void*>(&lodestirCpuName);
+    return hasAvx2() && willAskUs ? Gathers::named : Gathers::none;
+}
+
+std::string gathersText(Gathers gathers) {
+    switch (gathers) {
+    case Gathers::fast: return "by the CPU's gathers";
+    case Gathers::named: return "by the CPU's gathers, which its compiler has to be told to use";
+    case Gathers::none: return "as texels, because the CPU has no gathers";
+    }
+    return {};
+}
+
+}  // namespace lodestir::gpu
