@@ -45,6 +45,7 @@ Json toJson(const gpu::DeviceFacts& facts, bool chosen) {
     json["usable"] = facts.usable();
     json["chosen"] = chosen;
     json["rays"] = std::string(nameOf(chooseRayBody(facts, "")));
+    if (facts.isLavapipe) json["records"] = gpu::readsText(facts.readsTexels);
     json["features"] = Json::array();
     for (const gpu::Feature& feature : facts.features) {
         Json row = Json::object();

@@ -28,6 +28,7 @@ struct Name {
 
 namespace {
 
+constexpr std::string_view gatheringCpu = "skylake";
 constexpr const char* symbol = "_ZN4llvm3sys14getHostCPUNameEv";
 
 #if defined(__x86_64__)
@@ -67,15 +68,18 @@ Name (*ownFunction())() {
 
 extern "C" LODESTIR_API Name lodestirCpuName() asm("_ZN4llvm3sys14getHostCPUNameEv");
 extern "C" Name lodestirCpuName() {
-    if (hasAvx2() && !hasAvx512()) return {"skylake", 7};
+    if (hasAvx2() && !hasAvx512()) return {gatheringCpu.data(), gatheringCpu.size()};
     const auto own = ownFunction();
     return own ? own() : Name{"", 0};
 }
 
 Gathers gathersOfCpu() {
     if (hasAvx512()) return Gathers::fast;
-    const bool willAskUs = ownFunction() && dlsym(RTLD_DEFAULT, symbol) == reinterpret_cast<void*>(&lodestirCpuName);
-    return hasAvx2() && willAskUs ? Gathers::named : Gathers::none;
+    if (!hasAvx2() || !ownFunction()) return Gathers::none;
+    // What LLVM will be told: by the function above, if no other one was loaded before it.
+    const auto answering = reinterpret_cast<Name (*)()>(dlsym(RTLD_DEFAULT, symbol));
+    const Name answer = answering ? answering() : Name{"", 0};
+    return std::string_view(answer.data, answer.size) == gatheringCpu ? Gathers::named : Gathers::none;
 }
 
 std::string readsText(bool texels) {

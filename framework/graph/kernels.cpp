@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 namespace lodestir {
@@ -63,16 +64,22 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
     for (const int node : nodes)
         for (const std::string& shader : shadersOf(graph_.nodes[std::size_t(node)]))
             if (!kernels_.contains(Key{node, shader})) keys.emplace_back(node, shader);
-    std::vector<KernelSource> sources(keys.size());
+    std::vector<std::optional<KernelSource>> read(keys.size());
     parallelFor(keys.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             try {
-                sources[i] = kernelSource(device_, graph_, scene_, keys[i].first, keys[i].second, options_);
+                read[i] = kernelSource(device_, graph_, scene_, keys[i].first, keys[i].second, options_);
             } catch (const Error&) {}  // told when it is asked for, if it is
         }
     });
-    std::erase_if(keys, [&, i = std::size_t(0)](const Key&) mutable { return sources[i++].spirv.words.empty(); });
-    std::erase_if(sources, [](const KernelSource& source) { return source.spirv.words.empty(); });
+    std::vector<KernelSource> sources;
+    std::size_t good = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (!read[i]) continue;
+        sources.push_back(std::move(*read[i]));
+        keys[good++] = keys[i];
+    }
+    keys.resize(good);
     std::size_t done = 0;
     progress(done, keys.size());
     compileAhead(device_, sources, [&](std::size_t i, gpu::Pipeline pipeline, double milliseconds) {

@@ -13,23 +13,31 @@ struct Variant {
     std::string name;
     Environment environment;
     std::uint32_t lanes = 0;  ///< of a subgroup, which the environment brings about; 0: as many as without
+    std::string records = {};  ///< how records must be read then, as `lodestir devices` tells it; empty: however
 };
 
 /// Vectors of 128 bits, as on ARM and on x86 before AVX; such CPUs have no gathers, so that records are read as texels.
-Variant fourLanes() { return {"four_lanes", {{"LP_NATIVE_VECTOR_WIDTH", "128"}, {"LODESTIR_RECORDS", "texels"}}, 4}; }
+Variant fourLanes() { return {"four_lanes", {{"LP_NATIVE_VECTOR_WIDTH", "128"}, {"LODESTIR_RECORDS", "texels"}}, 4, "by texel"}; }
 /// Vectors of 512 bits, which lavapipe takes on request.
 Variant sixteenLanes() { return {"sixteen_lanes", {{"LP_NATIVE_VECTOR_WIDTH", "512"}}, 16}; }
 /// AVX2 at most: the driver's compiler has to be told to use its gathers (gpu/jit_cpu.h).
-Variant withoutAvx512() { return {"without_avx512", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}}}; }
+Variant withoutAvx512() { return {"without_avx512", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}}, 0, "had to be told"}; }
 /// A CPU whose gathers the compiler does not use, and cannot be told to: reads of different addresses become branches, and reads of one
 /// address happen where a branch forbids them.
-Variant withoutGathers() { return {"without_gathers", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}, {"LD_PRELOAD", CPU_NAME_LIBRARY}, {"CPU_NAME", "znver3"}}}; }
+Variant withoutGathers() { return {"without_gathers", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}, {"LD_PRELOAD", CPU_NAME_LIBRARY}, {"CPU_NAME", "znver3"}}, 0, "by texel"}; }
 
 struct Case {
     Variant (*variant)();
     const char *graph, *scene, *show;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.variant().name << ", " << c.graph; }
+
+/// What the program finds of the device under a variant.
+OrderedJson factsUnder(const Variant& variant) {
+    for (const auto& facts : OrderedJson::parse(runProcess({LODESTIR_BINARY, "devices", "--json"}, variant.environment).out))
+        if (facts["chosen"] == true) return facts;
+    return {};
+}
 
 /// Why a variant cannot be had on this machine; empty where it can.
 std::string whyNot(const Variant& variant) {
@@ -39,13 +47,11 @@ std::string whyNot(const Variant& variant) {
     if (!device.isLavapipe) return "the device is " + device.name + ", not lavapipe";
     if (variant.lanes != 0) {
         if (device.subgroupSize == variant.lanes) return "this CPU itself has as many lanes a subgroup: all other tests are this one";
-        const Output output = runProcess({LODESTIR_BINARY, "devices", "--json"}, variant.environment);
-        for (const auto& facts : OrderedJson::parse(output.out))
-            if (facts["chosen"] == true && facts["subgroupSize"] == variant.lanes) return {};
+        if (factsUnder(variant)["subgroupSize"] == variant.lanes) return {};
         return "the driver does not take its number of lanes from LP_NATIVE_VECTOR_WIDTH";
     }
 #if defined(__x86_64__)
-    if (!__builtin_cpu_supports("avx512f")) return "the CPU itself has no AVX-512: all other tests are this one";
+    if (!__builtin_cpu_supports("avx2")) return "the CPU itself has no AVX2, which the variant is about";
     return {};
 #else
     return "only an x86 CPU can play another";
@@ -84,6 +90,10 @@ protected:
 TEST_P(CpuVariants, ShowThePlainImage) {
     Variant variant = GetParam().variant();
     if (const std::string reason = whyNot(variant); !reason.empty()) GTEST_SKIP() << reason;
+    if (!variant.records.empty()) {
+        const std::string records = factsUnder(variant)["records"].get<std::string>();
+        EXPECT_NE(records.find(variant.records), std::string::npos) << "records are read " << records;
+    }
     const Rendered plain = secondFrame("plain", {});
     // A cache of its own, because the driver takes kernels for the same whatever the number of lanes and the name of the CPU.
     const char* cache = std::getenv("MESA_SHADER_CACHE_DIR");
