@@ -244,7 +244,14 @@ Device::Device(const DeviceOptions& options) : Device(nullptr) {
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     allocator_ = createAllocator(instance_, physical_, device_);
-    if (facts_.readsTexels) heap_ = std::make_unique<Heap>(*this);
+    if (facts_.readsTexels) {
+        try {
+            heap_ = std::make_unique<Heap>(*this);
+        } catch (const Error& error) {  // a limit on address space, say: slower by address, but as right
+            facts_.readsTexels = false;
+            log::note("records are read by address: {}", error.what());
+        }
+    }
 
     if (debugUtils) {
         const auto load = [&](auto& function, const char* name) {

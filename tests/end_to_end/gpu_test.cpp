@@ -2,6 +2,7 @@
 // The GPU layer on a real device: memory there and back, addresses, specialization, 64-bit atomics, timestamps, errors.
 #include <framework/core/error.h>
 #include <framework/gpu/commands.h>
+#include <framework/gpu/heap.h>
 #include <framework/graph/kernel_source.h>
 
 #include <gtest/gtest.h>
@@ -200,15 +201,25 @@ void main() {
 }
 )";
 
-// Kernels that read by texel, as on CPUs without gathers, get the same numbers as by address, however records are laid out.
-TEST(TexelReadsTest, GiveTheNumbersOfReadsByAddress) {
-    setenv("LODESTIR_RECORDS", "texels", 1);
-    const std::vector<DeviceFacts> devices = listDevices();
-    const bool can = std::ranges::any_of(devices, [](const DeviceFacts& d) { return d.usable() && d.readsTexels; });
+// A device whose kernels read by texel, as on CPUs without gathers.
+class TexelReadsTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        setenv("LODESTIR_RECORDS", "texels", 1);
+        const std::vector<DeviceFacts> devices = listDevices();
+        const bool can = std::ranges::any_of(devices, [](const DeviceFacts& d) { return d.usable() && d.readsTexels; });
+        if (can) device.emplace(DeviceOptions{.choice = "llvmpipe", .validation = true});
+        unsetenv("LODESTIR_RECORDS");
+        if (!can) GTEST_SKIP() << "no lavapipe with VK_EXT_external_memory_host: nothing is read by texel here";
+    }
+    void TearDown() override {
+        if (!device) return;
+        EXPECT_EQ(device->validationMessages(), std::vector<std::string>{});
+    }
     std::optional<Device> device;
-    if (can) device.emplace(DeviceOptions{.choice = "llvmpipe", .validation = true});
-    unsetenv("LODESTIR_RECORDS");
-    if (!can) GTEST_SKIP() << "no lavapipe with VK_EXT_external_memory_host: nothing is read by texel here";
+};
+
+TEST_F(TexelReadsTest, GiveTheNumbersOfReadsByAddressHoweverRecordsLie) {
     const Path file = std::filesystem::temp_directory_path() / ("lodestir_texel_reads_" + std::to_string(getpid()) + ".comp");
     writeFile(file, reads);
     std::vector<std::uint32_t> data(4096);
@@ -228,7 +239,17 @@ TEST(TexelReadsTest, GiveTheNumbersOfReadsByAddress) {
     EXPECT_EQ(results[0][0], data[1]);
     EXPECT_NE(results[0][30], 0xabcdu);
     EXPECT_EQ(results[0], results[1]);
-    EXPECT_EQ(device->validationMessages(), std::vector<std::string>{});
+}
+
+// What doesn't fit lies elsewhere, and says so: kernels made from then on read by address. Memory that nothing writes costs none.
+TEST_F(TexelReadsTest, EndWhereMemoryLiesElsewhere) {
+    constexpr std::size_t much = std::size_t(1) << 30;
+    ASSERT_NE(device->heap(), nullptr);
+    const Buffer first(*device, much, Memory::device, "first");
+    EXPECT_TRUE(device->heap()->isWhole());
+    const Buffer second(*device, much, Memory::device, "second");
+    EXPECT_FALSE(device->heap()->isWhole());
+    EXPECT_NE(second.address(), 0u);
 }
 
 // A kernel's globals are initialised before its main() returns from the dispatch that makes the driver compile: reads which no compiler
