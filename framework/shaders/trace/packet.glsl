@@ -40,6 +40,24 @@ void testLeaf(World w, uint leaf, GridRay r, inout Packet p) {
     take(p, m.t < p.tMax, m, primitive);
 }
 
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LeafTriangles { uint64_t at[]; };
+
+// The same where only lane `lone` has a ray that matters: each lane tests a triangle for it. Of equally near ones it takes the first, too.
+void testLeafOfOne(World w, uint leaf, GridRay r, inout Packet p, uint lone) {
+    uint first = firstTriangle(leaf), last = lastTriangle(leaf), primitive = min(first + (packetLane() & 3u), last);
+    LeafTriangles triangle = LeafTriangles(w.triangles + uint64_t(primitive) * 48ul);
+    uvec2 a = unpackUint2x32(triangle.at[0]), b = unpackUint2x32(triangle.at[1]), c = unpackUint2x32(triangle.at[2]);
+    uvec2 d = unpackUint2x32(triangle.at[3]), e = unpackUint2x32(triangle.at[4]);
+    vec3 origin = vec3(subgroupShuffle(r.origin.x, lone), subgroupShuffle(r.origin.y, lone), subgroupShuffle(r.origin.z, lone));
+    vec3 direction = vec3(subgroupShuffle(r.direction.x, lone), subgroupShuffle(r.direction.y, lone), subgroupShuffle(r.direction.z, lone));
+    Meeting m = meet(origin, direction, subgroupShuffle(p.tMin, lone), subgroupShuffle(p.tMax, lone),
+                     uintBitsToFloat(uvec3(a, b.x)), uintBitsToFloat(uvec3(b.y, c)), uintBitsToFloat(uvec3(d, e.x)));
+    uint t = floatBitsToUint(m.t), least = minFour(t);
+    uint winner = minFour(t == least ? packetLane() & 3u : 3u);
+    Meeting nearest = Meeting(uintBitsToFloat(subgroupShuffle(least, 0u)), vec2(subgroupShuffle(m.barycentrics.x, winner), subgroupShuffle(m.barycentrics.y, winner)));
+    take(p, packetLane() == lone && nearest.t < p.tMax, nearest, min(first + winner, last));
+}
+
 // One triangle after the other, asking the masks.
 void testMaskedLeaf(World w, uint leaf, GridRay r, inout Packet p) {
     uint last = lastTriangle(leaf);
@@ -104,6 +122,8 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
         } else if (current < REF_BACK) {
             if (SCENE_MASKS != 0 && (current & REF_MASKED) != 0u) {
                 testMaskedLeaf(w, current, r, p);
+            } else if (loneSize != 0u) {
+                testLeafOfOne(w, current, r, p, lone);
             } else {
                 testLeaf(w, current, r, p);
             }
