@@ -5,7 +5,7 @@ set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
 file(READ ${file} graph)
 string(JSON scene GET "${graph}" scene)
 get_filename_component(scene ${scene} NAME_WE)
-add_custom_target(demo DEPENDS lodestir scene_${scene})
+add_custom_target(demo DEPENDS lodestir scene_${scene} scene_furnace)  # the furnace is what `devices --test` renders
 
 string(JSON nodes GET "${graph}" passes)
 string(JSON count LENGTH "${nodes}")
