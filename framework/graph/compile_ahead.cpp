@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -88,7 +89,7 @@ void compileAhead(const gpu::Device& device, std::span<const KernelSource> sourc
                     const gpu::Device own({.choice = std::to_string(device.facts().index), .validation = false});
                     const PipelineMaker theirs(own);
                     while (const auto i = queue.back()) theirs.make(sources[*i]);
-                } catch (const Error&) {}  // what it hasn't compiled is compiled below
+                } catch (const std::exception&) {}  // what it hasn't compiled is compiled below; out of this thread nothing may come
             });
         while (const auto i = queue.front()) {
             make(*i);
