@@ -6,7 +6,6 @@
 #include <framework/graph/compile_ahead.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -90,10 +89,11 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
 
 Kernel Kernels::make(int node, std::string_view shader) {
     const KernelSource source = kernelSource(device_, graph_, scene_, node, shader, options_);
-    const auto start = std::chrono::steady_clock::now();
-    gpu::Pipeline pipeline = maker_.make(source);
-    const double milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return finish({node, std::string(shader)}, source, std::move(pipeline), milliseconds);
+    Kernel kernel;
+    compileAhead(device_, std::span(&source, 1), [&](std::size_t, gpu::Pipeline pipeline, double milliseconds) {
+        kernel = finish({node, std::string(shader)}, source, std::move(pipeline), milliseconds);
+    });
+    return kernel;
 }
 
 Kernel Kernels::finish(const Key& key, const KernelSource& source, gpu::Pipeline pipeline, double milliseconds) {
