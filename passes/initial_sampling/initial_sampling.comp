@@ -39,9 +39,8 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     if (item >= p.trees) return false;
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex() * mostTrees() + item, runSeed());
-    vec2 place = params.pixelCentre ? vec2(0.5) : filmGrid(random2(seed, 0, RANDOM_FILM));
-    vec2 film = filmOf(pixel, place, frameSize()), lens = random2(seed, 0, RANDOM_LENS);
-    treeStart(p.tree, w, seed, film, lens);
+    vec2 film = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM), lens = random2(seed, 0, RANDOM_LENS);
+    treeStart(p.tree, seed, film, lens, cameraRay(w, filmOf(pixel, film, frameSize()), lens));
     p.known = false;
 #if HAS_hits
     p.known = sameCameraSample(w, p.centre, film, lens);

@@ -35,10 +35,10 @@ bool startBsdf(inout Path p) {
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.lights = p.ris = risStart();
-    p.kept = LightReservoir(NONE, vec2(0), 0, 0, 0, uvec2(0));
+    p.kept = LightReservoir(NONE, 0, vec2(0), 0, 0, 0, 0);
     p.mirrored = vec3(0);
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
-    LitSurface l = litSurface(w, hits(pixelIndex(pixel)));
+    LitSurface l = litSurface(w, pixel, frameSize(), hits(pixelIndex(pixel)));
     if (l.sky) return false;
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
     float count = float(params.candidates);
@@ -50,7 +50,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         float pdf;
         float sent = luminance(bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf);
         if (!risAdd(p.lights, sent / count, random1(p.decisions, i, RANDOM_FREE))) continue;
-        p.kept = LightReservoir(light.point.light, light.point.uv, 0, 0, sent * pointDensity(light), uvec2(0));
+        p.kept = LightReservoir(light.point.light, light.point.texel, light.point.uv, 0, 0, sent * pointDensity(w, light), 0);
         p.light = light;
         p.bsdfPdf = pdf;
     }
@@ -77,7 +77,8 @@ void takeLight(inout Path p, bool seen) {
 // The light that the BSDF sample has found.
 void takeBsdf(inout Path p, World w, Hit hit) {
     vec3 direction = p.ray.direction, radiance;
-    LightPoint point = LightPoint(w.environmentLight, environmentUv(w, direction));
+    EnvironmentPoint there = environmentPoint(w, environmentUv(w, direction));
+    LightPoint point = LightPoint(w.environmentLight, there.texel, there.place);
     float pdfLight, perPoint = 1;  // steradians per measure of the point
     if (hit.primitive == NONE) {
         radiance = environmentRadiance(w, direction);
@@ -87,7 +88,7 @@ void takeBsdf(inout Path p, World w, Hit hit) {
         radiance = emittedRadiance(w, s) * segmentTransmittance(w, s, hit.t);
         pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, hit.t);
         uint first = w.instances.at[hit.instance].firstLight, emitter = w.emitters.at[hit.primitive];
-        point = LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, hit.barycentrics);
+        point = LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, 0, hit.barycentrics);
         perPoint = abs(dot(s.normal, direction)) / square(hit.t);
     }
     vec3 sent = p.next.weight * radiance;
@@ -97,7 +98,7 @@ void takeBsdf(inout Path p, World w, Hit hit) {
     }
     float share = misWeight(p.next.pdf, float(params.candidates) * pdfLight);
     if (risAdd(p.ris, luminance(sent) * share, random1(p.decisions, uint(params.candidates), RANDOM_FREE)))
-        p.kept = LightReservoir(point.light, point.uv, 0, 0, luminance(sent) * p.next.pdf * perPoint, uvec2(0));
+        p.kept = LightReservoir(point.light, point.texel, point.uv, 0, 0, luminance(sent) * p.next.pdf * perPoint, 0);
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
@@ -121,7 +122,7 @@ void mergeHistory(inout Path p, World w, ivec2 pixel) {
     if (!similarViews(pixelView(w, here), pixelView(last, there), params.normal, params.depth)) return;
     LightReservoir past = history(pixelIndex(before)), own = p.kept;
     past.M = cappedConfidence(past.M, params.cap);
-    float pastTarget = targetAt(w, litSurface(w, here), past), back = targetAt(last, litSurface(last, there), own);
+    float pastTarget = targetAt(w, litSurface(w, pixel, frameSize(), here), past), back = targetAt(last, litSurface(last, before, frameSize(), there), own);
     Ris ris = risStart();
     vec2 u = random2(p.decisions, 0, RANDOM_FREE + 1);
     risAdd(ris, resamplingWeight(balanceMis(own.M * own.pHat, past.M * back), own.pHat, own.W, 1), u.x);

@@ -17,30 +17,33 @@ struct LitSurface {
     vec3 wo;
 };
 
-LitSurface litSurface(World w, PrimaryHit h) {
+/// `h`: what pixel `p` of an image of `size` pixels sees.
+LitSurface litSurface(World w, ivec2 p, uvec2 size, PrimaryHit h) {
     LitSurface l;
     l.sky = h.primitive == NONE;
     if (l.sky) return l;
-    l.wo = -cameraRay(w, h.film, h.lens).direction;
+    l.wo = -cameraRay(w, filmOf(p, h.film, size), h.lens).direction;
     l.s = surfaceAt(w, hitOf(h), -l.wo);
     l.b = bsdfAt(w, l.s);
     return l;
 }
 
-/// Density of the point in its own measure: per area, per steradian of the environment; 1 for a light without extent.
-float pointDensity(LightSample l) {
-    if (l.delta) return 1.0;
-    return l.distance < FAR ? l.pdf * l.cosine / square(l.distance) : l.pdf;
+/// Density of the point in its own measure: per area, per steradian of the environment; the chance of a light without extent.
+float pointDensity(World w, LightSample l) {
+    float density = vertexDensity(w, l);
+    return l.delta || l.distance >= FAR ? density : density * l.cosine / square(l.distance);
 }
 
 /// f |cos| L of the light point seen from the surface, per its own measure.
-vec3 arriving(LitSurface l, LightSample light) {
+vec3 arriving(World w, LitSurface l, LightSample light) {
     float pdf;
-    return bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf * pointDensity(light);
+    return bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf * pointDensity(w, light);
 }
+
+LightPoint lightPoint(LightReservoir r) { return LightPoint(r.light, r.texel, r.uv); }
 
 /// p^ of the reservoir's point at another surface.
 float targetAt(World w, LitSurface l, LightReservoir r) {
     if (l.sky || r.W <= 0.0 || r.light >= w.lightCount) return 0.0;
-    return luminance(arriving(l, lightSampleAt(w, LightPoint(r.light, r.uv), l.s.position)));
+    return luminance(arriving(w, l, lightSampleAt(w, lightPoint(r), l.s.position)));
 }

@@ -39,7 +39,7 @@ LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {
         ivec2 q = neighbourOf(w, pixel, i);
         if (q == pixel) continue;
         LightReservoir other = merged(pixelIndex(q));
-        float here = targetAt(w, l, other), there = targetAt(w, litSurface(w, hits(pixelIndex(q))), own);
+        float here = targetAt(w, l, other), there = targetAt(w, litSurface(w, q, frameSize(), hits(pixelIndex(q))), own);
         float weight = resamplingWeight(neighbourMis(pairs, other.M, here, other.pHat), here, other.W, 1);
         m += canonicalMis(pairs, other.M, own.pHat, there);
         if (risAdd(ris, weight, random1(decisions(pixel), i, RANDOM_FREE + 1))) {
@@ -55,19 +55,19 @@ LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     PrimaryHit h = hits(pixelIndex(pixel));
-    LitSurface l = litSurface(w, h);
+    LitSurface l = litSurface(w, pixel, frameSize(), h);
     p.kept = merged(pixelIndex(pixel));
     p.unshadowed = vec3(0);
     p.radiance = mirrored(pixel).rgb;
     if (l.sky) {
-        p.radiance += environmentRadiance(w, cameraRay(w, h.film, h.lens).direction);
+        p.radiance += environmentRadiance(w, cameraRay(w, filmOf(pixel, h.film, frameSize()), h.lens).direction);
         return false;
     }
     p.radiance += emittedRadiance(w, l.s);
     p.kept = reuseNeighbours(w, pixel, l);
     if (p.kept.W <= 0) return false;
-    LightSample light = lightSampleAt(w, LightPoint(p.kept.light, p.kept.uv), l.s.position);
-    p.unshadowed = arriving(l, light) * p.kept.W;
+    LightSample light = lightSampleAt(w, lightPoint(p.kept), l.s.position);
+    p.unshadowed = arriving(w, l, light) * p.kept.W;
     p.ray = shadowRay(w, l.s, light);
     return true;
 }

@@ -8,8 +8,8 @@
 #include "world/camera.glsl"
 
 // Light seen directly through the pixel.
-vec3 emissionAt(World w, PrimaryHit h) {
-    vec3 direction = cameraRay(w, h.film, h.lens).direction;
+vec3 emissionAt(World w, ivec2 p, PrimaryHit h) {
+    vec3 direction = cameraRay(w, filmOf(p, h.film, frameSize()), h.lens).direction;
     return h.primitive == NONE ? environmentRadiance(w, direction) : emittedRadiance(w, surfaceAt(w, hitOf(h), direction));
 }
 
@@ -23,7 +23,7 @@ vec3 radianceOf(ivec2 p, Reservoir r) {
     radiance += addRgba(p).rgb;
 #endif
 #if HAS_hits
-    if (params.emission) radiance += emissionAt(world(), hits(pixelIndex(p)));
+    if (params.emission) radiance += emissionAt(world(), p, hits(pixelIndex(p)));
 #endif
     return radiance;
 }
@@ -37,7 +37,7 @@ vec3 contentOf(ivec2 p, Reservoir r) {
     if (params.view == view_reconnection) return vec3(float(shape.k) / 8);
     if (params.view == view_technique) return vec3(shape.nee, !shape.nee, shape.light == PATH_LIGHT_ENVIRONMENT);
 #if HAS_samples
-    return vec3(samples(pixelIndex(p)).hit.film * vec2(frameSize()) - vec2(p), 0);
+    return vec3(samples(pixelIndex(p)).hit.film, 0);
 #else
     return vec3(0);
 #endif

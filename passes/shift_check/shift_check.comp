@@ -70,9 +70,9 @@ bool samePath(Path p) {
     Reservoir a = p.path, b = p.shift.path;
     PrimaryHit x = p.hit.hit, y = p.shift.hit.hit;
     bool connected = unpackShape(a.shape).k > 0;
-    bool target = !connected || (a.rcInstance == b.rcInstance && a.rcPrimitive == b.rcPrimitive && a.rcBarycentrics == b.rcBarycentrics);
+    bool target = !connected || (a.rcInstance == b.rcInstance && a.rcPrimitive == b.rcPrimitive && p.hit.rc.barycentrics == p.shift.hit.rc.barycentrics);
     return a.seed == b.seed && a.shape == b.shape && target && x.instance == y.instance && x.primitive == y.primitive &&
-           distance(x.film, y.film) * maxComponent(vec3(frameSize(), 0)) < 1e-3 && x.lens == y.lens;
+           x.film == y.film && x.lens == y.lens;
 }
 
 // Both resampling MIS weights of one path, in two pixels that see it: the canonical pixel's and its neighbour's must sum to 1.
@@ -153,11 +153,11 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         hit = p.shift.hit;
     }
     bool here = isHere(item);
-    ivec2 from = here ? p.partner : pixel, to = here ? pixel : p.partner;
+    ivec2 to = here ? pixel : p.partner;
     PrimaryHit centre;
     if (here) centre = hits(place(to));
     else centre = partnerCentre(to);
-    return shiftStart(p.shift, w, path, hit, from, to, frameSize(), centre, 1, p.refresh);
+    return shiftStart(p.shift, w, path, hit, to, frameSize(), centre, 1, p.refresh);
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }

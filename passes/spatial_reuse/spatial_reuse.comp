@@ -90,22 +90,21 @@ World pathWorld(uint item) { return scene; }
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     if (item == 0) begin(p, pixel);
     else finish(p, pixel, item - 1);
-    ivec2 from = pixel, to = p.neighbour;
+    ivec2 to = p.neighbour;
     Reservoir path = p.own;
     SampleHit hit = p.ownHit;
     if ((item & 1) == 0) {
         p.neighbour = neighbourOf(pixel, p.view, item >> 1);
         p.confidence = 0;
         if (p.neighbour == pixel) return false;
-        from = p.neighbour;
         to = pixel;
-        path = inputReservoir(from);
-        hit = inputSample(from);
+        path = inputReservoir(p.neighbour);
+        hit = inputSample(p.neighbour);
         p.confidence = confidence(path);
         p.pHat = target(path);
         p.W = path.W;
     }
-    return shiftStart(p.shift, w, path, hit, from, to, frameSize(), hits(place(to)), 1, false) && p.confidence > 0;
+    return shiftStart(p.shift, w, path, hit, to, frameSize(), hits(place(to)), 1, false) && p.confidence > 0;
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }

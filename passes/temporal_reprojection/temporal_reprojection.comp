@@ -49,13 +49,13 @@ void begin(inout Path p, ivec2 pixel) {
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     if (item == 0) begin(p, pixel);
     if (p.confidence == 0) return false;
-    if (item == 0) return shiftStart(p.shift, w, p.past, p.pastHit, p.before, pixel, frameSize(), hits(place(pixel)), 1, p.refresh);
+    if (item == 0) return shiftStart(p.shift, w, p.past, p.pastHit, pixel, frameSize(), hits(place(pixel)), 1, p.refresh);
     float W = p.past.W;
     p.jacobian = p.shift.jacobian;
     p.past = p.shift.path;
     p.past.W = W;
     p.pastHit = p.shift.hit;
-    return shiftStart(p.shift, w, p.own, p.ownHit, pixel, p.before, frameSize(), hitsPrev(place(p.before)), 1, p.refresh);
+    return shiftStart(p.shift, w, p.own, p.ownHit, p.before, frameSize(), hitsPrev(place(p.before)), 1, p.refresh);
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }

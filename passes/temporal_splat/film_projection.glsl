@@ -3,10 +3,10 @@
 #include "restir/path_vertex.glsl"
 #include "world/camera.glsl"
 
-/// Film area per barycentric area of the hit (per solid angle of the environment), as seen through the lens point that `hit` holds: |n.w| / r^2
+/// Film area per barycentric area of what pixel `p` of an image of `size` pixels hit (per solid angle of the environment), as seen through the lens point that `hit` holds: |n.w| / r^2
 /// and 1 / cos^3 for the inclination of the film (Liu et al. 2025, Reservoir Splatting); the film's own size makes it right for a camera that zooms.
-float filmTerm(World w, PrimaryHit hit) {
-    Ray ray = cameraRay(w, hit.film, hit.lens);
+float filmTerm(World w, ivec2 p, uvec2 size, PrimaryHit hit) {
+    Ray ray = cameraRay(w, filmOf(p, hit.film, size), hit.lens);
     float connection = 1.0;
     vec3 direction = ray.direction;
     if (hit.primitive != NONE) {
@@ -18,12 +18,15 @@ float filmTerm(World w, PrimaryHit hit) {
     return cosine > 0.0 ? connection / (cosine * cosine * cosine * film) : 0.0;
 }
 
-/// The hit as the camera of `to` sees it through the same lens point; `direction` is that in which the environment was seen. False: it is
-/// behind the camera or off the film.
-bool project(World to, inout PrimaryHit hit, vec3 direction) {
+/// The hit as the camera of `to` sees it through the same lens point, and the pixel that it lands in; `direction` is that in which the environment
+/// was seen. False: it is behind the camera or off the film.
+bool project(World to, uvec2 size, inout PrimaryHit hit, vec3 direction, out ivec2 landing) {
     vec3 lens = to.camera.position + lensOffset(to, hit.lens);
     vec3 point = hit.primitive == NONE ? lens + direction : positionOn(to, hit.instance, hit.primitive, hit.barycentrics);
     vec3 seen = cameraProject(to, point, hit.lens);
-    hit.film = seen.xy;
+    const float belowOne = 0.99999994;
+    vec2 at = seen.xy * vec2(size);
+    landing = min(ivec2(floor(at)), ivec2(size) - 1);
+    hit.film = min(at - vec2(landing), belowOne);
     return seen.z > 0.0 && all(greaterThanEqual(seen.xy, vec2(0.0))) && all(lessThan(seen.xy, vec2(1.0)));
 }

@@ -64,7 +64,7 @@ const uint MAP_CENTRE = 0, MAP_PRIMARY = 1, MAP_RECONNECTION = 2, MAPS = 3;
 
 // Takes all that belongs to an item from the World `from` to the World `to`, at one place in the code: a map is many reads, and is compiled
 // wherever it is called. False: the path can't be found there. `jacobian` becomes that of both barycentric areas.
-bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, inout PrimaryHit first, inout Reservoir path, SampleHit hit, out float jacobian) {
+bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, inout PrimaryHit first, inout Reservoir path, inout SampleHit hit, out float jacobian) {
     bool keepsFirst = item == SCATTER || item == SCATTER_BACK;
     uint kind = reconnectionKind(unpackShape(path.shape));
     bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && kind != RC_LIGHT;
@@ -77,8 +77,8 @@ bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, i
         } else if (k == MAP_RECONNECTION) {
             at.instance = path.rcInstance;
             at.primitive = connects ? path.rcPrimitive : NONE;
-            at.barycentrics = unpackBarycentrics(path.rcBarycentrics);
-            coordinates = hit.rcUv;
+            at.barycentrics = hit.rc.barycentrics;
+            coordinates = hit.rc.uv;
         } else if (!keepsFirst) {
             continue;
         }
@@ -97,7 +97,7 @@ bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, i
             first = at;
         } else if (connects) {
             path.rcPrimitive = at.primitive;
-            path.rcBarycentrics = packBarycentrics(at.barycentrics);
+            hit.rc.barycentrics = at.barycentrics;
         }
     }
     return true;
@@ -163,20 +163,20 @@ bool start(inout Path p, World to, ivec2 pixel, uint item) {
     float jacobian;
     if (!mapPath(p, from, to, item, hits(place(pixel)), first, path, hit, jacobian)) return false;
     if (!splats) {
-        ivec2 here = back ? pixel : p.before, there = back ? p.before : pixel;
+        ivec2 there = back ? p.before : pixel;
         PrimaryHit centre = hits(place(pixel));
         if (back) centre = hitsPrev(place(p.before));
-        return shiftStart(p.shift, to, path, hit, here, there, frameSize(), centre, jacobian, p.refresh);
+        return shiftStart(p.shift, to, path, hit, there, frameSize(), centre, jacobian, p.refresh);
     }
-    if (!project(to, first, cameraRay(from, hit.hit.film, hit.hit.lens).direction)) return false;
-    ivec2 landing = min(ivec2(first.film * vec2(frameSize())), ivec2(frameSize()) - 1);
+    ivec2 landing;
+    if (!project(to, frameSize(), first, cameraRay(from, filmOf(pixel, hit.hit.film, frameSize()), hit.hit.lens).direction, landing)) return false;
     if (back) {
         p.confidence = capped(history(place(landing)));
         if (p.confidence == 0) return false;
     }
     p.target = place(landing);
-    jacobian *= jacobianRatio(filmTerm(to, first), filmTerm(from, hit.hit));
-    return shiftStartAt(p.shift, to, path, hit, first, jacobian, p.refresh);
+    jacobian *= jacobianRatio(filmTerm(to, landing, frameSize(), first), filmTerm(from, pixel, frameSize(), hit.hit));
+    return shiftStartAt(p.shift, to, path, hit, first, landing, frameSize(), jacobian, p.refresh);
 }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {

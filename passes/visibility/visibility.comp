@@ -8,7 +8,8 @@
 #include "world/camera.glsl"
 
 struct Path {
-    vec2 film, lens;
+    vec2 place, lens;  // inside the pixel, on the lens
+    vec2 film;
     Ray ray;
     Hit hit;
 };
@@ -19,8 +20,8 @@ World pathWorld(uint item) { return world(); }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
-    vec2 offset = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM);
-    p.film = (vec2(pixel) + offset) / vec2(depthSize());
+    p.place = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM);
+    p.film = filmOf(pixel, p.place, depthSize());
     p.lens = params.lens ? random2(seed, 0, RANDOM_LENS) : vec2(0.5);  // the middle of the square is the middle of the disk
     p.ray = cameraRay(w, p.film, p.lens);
     return true;
@@ -56,7 +57,7 @@ void pathEnd(Path p, World w, ivec2 pixel) {
     found.instance = p.hit.instance;
     found.primitive = p.hit.primitive;
     found.barycentrics = p.hit.barycentrics;
-    found.film = p.film;
+    found.film = p.place;
     found.lens = p.lens;
     storeHits(pixelIndex(pixel), found);
     storeMotion(pixel, motionOf(p, w));

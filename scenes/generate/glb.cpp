@@ -146,7 +146,17 @@ int Glb::addMaterial(const Material& m) {
     return int(tables->materials.size()) - 1;
 }
 
-int Glb::addGeometry(const Mesh& mesh) {
+int Glb::addPositions(const std::vector<glm::vec3>& positions) {
+    const int accessor = addAccessor(positions.data(), positions.size(), 3, floating, arrayBuffer);
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& p : positions) low = glm::min(low, p), high = glm::max(high, p);
+    // Bounds must equal the stored floats (3.6.2.5), so they aren't rounded.
+    tables->accessors.back()["min"] = {low.x, low.y, low.z};
+    tables->accessors.back()["max"] = {high.x, high.y, high.z};
+    return accessor;
+}
+
+int Glb::addGeometry(const Mesh& mesh, const std::vector<glm::vec3>& morphed) {
     const size_t count = mesh.vertices.size();
     const auto gather = [&](int components, auto member) {
         std::vector<float> values;
@@ -157,12 +167,9 @@ int Glb::addGeometry(const Mesh& mesh) {
     };
 
     json attributes;
-    attributes["POSITION"] = gather(3, &Vertex::position);
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    for (const Vertex& v : mesh.vertices) low = glm::min(low, v.position), high = glm::max(high, v.position);
-    // Bounds must equal the stored floats (3.6.2.5), so they aren't rounded.
-    tables->accessors.back()["min"] = {low.x, low.y, low.z};
-    tables->accessors.back()["max"] = {high.x, high.y, high.z};
+    std::vector<glm::vec3> positions;
+    for (const Vertex& v : mesh.vertices) positions.push_back(v.position);
+    attributes["POSITION"] = addPositions(positions);
     attributes["NORMAL"] = gather(3, &Vertex::normal);
     attributes["TEXCOORD_0"] = gather(2, &Vertex::uv);
     if (mesh.hasTangents) attributes["TANGENT"] = gather(4, &Vertex::tangent);
@@ -176,6 +183,12 @@ int Glb::addGeometry(const Mesh& mesh) {
         indices = addAccessor(mesh.indices.data(), mesh.indices.size(), 1, unsignedInt, elementBuffer);
     }
     tables->geometries.push_back({{"attributes", attributes}, {"indices", indices}});
+    if (!morphed.empty()) {
+        if (morphed.size() != count) throw std::logic_error("a morph target needs a position for each vertex");
+        std::vector<glm::vec3> moved;  // a target holds differences (3.7.2.2)
+        for (size_t i = 0; i < count; ++i) moved.push_back(morphed[i] - positions[i]);
+        tables->geometries.back()["targets"] = json::array({{{"POSITION", addPositions(moved)}}});
+    }
     return int(tables->geometries.size()) - 1;
 }
 
@@ -225,14 +238,15 @@ void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, co
     const int input = addAccessor(seconds.data(), seconds.size(), 1, floating, 0);
     tables->accessors.back()["min"] = json::array({seconds.front()});  // 3.11: the input of a sampler states its bounds
     tables->accessors.back()["max"] = json::array({seconds.back()});
-    const int components = motion == Motion::rotation ? 4 : 3;
+    const char* paths[] = {"translation", "rotation", "scale", "weights"};
+    const int components = motion == Motion::rotation ? 4 : motion == Motion::weight ? 1 : 3;
     std::vector<float> numbers;
     for (const glm::vec4& value : values)
         for (int k = 0; k < components; ++k) numbers.push_back(value[k]);
     const int output = addAccessor(numbers.data(), values.size(), components, floating, 0);
     tables->samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
     tables->channels.push_back({{"sampler", int(tables->samplers.size()) - 1},
-                        {"target", {{"node", node}, {"path", motion == Motion::rotation ? "rotation" : "translation"}}}});
+                        {"target", {{"node", node}, {"path", paths[int(motion)]}}}});
 }
 
 void Glb::write(const std::filesystem::path& path) const {

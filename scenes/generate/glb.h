@@ -61,8 +61,8 @@ struct LightSource {
     float outerDegrees = 45;
 };
 
-/// What an animation moves of a node.
-enum class Motion { translation, rotation };
+/// What an animation changes of a node; weight: of the morph target of its mesh.
+enum class Motion { translation, rotation, scale, weight };
 
 /// Where a node stands.
 struct Placement {
@@ -97,8 +97,9 @@ public:
     Material dressed(Material material, const Textures& textures);
     int addMaterial(const Material& material);
 
-    /// Vertex data that several meshes may share. Tangents are written where Mesh::hasTangents says so.
-    int addGeometry(const Mesh& mesh);
+    /// Vertex data that several meshes may share. Tangents are written where Mesh::hasTangents says so. `morphed`: positions at weight 1 of a morph
+    /// target, which starts at weight 0; empty: none.
+    int addGeometry(const Mesh& mesh, const std::vector<glm::vec3>& morphed = {});
     int addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial);
 
     /// Computes tangents for the parts whose material has a normal picture, and adds the mesh.
@@ -109,7 +110,7 @@ public:
     int addNode(const Model& model, const Placement& placement = {});
     int addNode(const LightSource& light, const Placement& placement = {});
 
-    /// Linear keys at the given seconds; a rotation's are quaternions (x, y, z, w).
+    /// Linear keys at the given seconds; a rotation's are quaternions (x, y, z, w), a weight's is x.
     void animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values);
 
     /// Writes aside and renames, so that no half-written file is ever seen.
@@ -123,6 +124,7 @@ private:
 
     int addView(const void* data, size_t bytes, int target);
     int addAccessor(const void* data, size_t count, int components, int componentType, int target);
+    int addPositions(const std::vector<glm::vec3>& positions);
     void use(const std::string& extension);
 };
 

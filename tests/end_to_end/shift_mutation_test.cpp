@@ -1,34 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Faults planted in shaders, one line each, and the tool that must find each of them: if it doesn't, the tests of the same kind in shift_test
 // prove nothing.
-//
-// A fault is a copy of a pass's library under another name, with the changed shader beside it, where it is found before the right one.
+#include "planted_faults.h"
 #include "shift_session.h"
 
 namespace lodestir::test {
 namespace {
-
-struct Fault {
-    std::string type;  ///< of the faulty pass
-    std::string pass;  ///< that it is a copy of
-    Path file;         ///< in framework/shaders, or of the pass's folder
-    std::string right, wrong;
-};
-
-/// Makes the faulty passes in a folder. The right text must be there exactly once: a fault that can't be planted any more is a failure.
-void plant(const Path& folder, const std::vector<Fault>& faults) {
-    for (const Fault& fault : faults) {
-        const Path shared = sourceFolder / "framework/shaders" / fault.file, own = sourceFolder / "passes" / fault.pass / fault.file;
-        std::string text = readText(std::filesystem::exists(shared) ? shared : own);
-        const std::size_t at = text.find(fault.right);
-        ASSERT_NE(at, text.npos) << fault.type << ": not in " << fault.file;
-        ASSERT_EQ(text.find(fault.right, at + 1), text.npos) << fault.type << ": twice in " << fault.file;
-        text.replace(at, fault.right.size(), fault.wrong);
-        writeFile(folder / fault.type / fault.file, text);
-        std::filesystem::copy_file(passFolder() / fault.pass / ("lib" + fault.pass + ".so"),
-                                   folder / fault.type / ("lib" + fault.type + ".so"));
-    }
-}
 
 class Mutations : public testing::Test {
 protected:

@@ -10,22 +10,36 @@
 
 const uint TANGENT_NONE = 0u;
 
-uint packNormal(vec3 n) {
+/// The octahedral map, to [-1, 1]^2 and back to a unit vector.
+vec2 octahedral(vec3 n) {
     n /= abs(n.x) + abs(n.y) + abs(n.z);
     vec2 folded = (1.0 - abs(n.yx)) * mix(vec2(-1.0), vec2(1.0), greaterThanEqual(n.xy, vec2(0.0)));
-    vec2 p = n.z >= 0.0 ? n.xy : folded;
-    ivec2 q = ivec2(floor(clamp(p, -1.0, 1.0) * 32767.0 + 0.5));
-    return uint(q.x & 0xffff) | uint(q.y) << 16;
+    return clamp(n.z >= 0.0 ? n.xy : folded, -1.0, 1.0);
 }
 
-vec3 unpackNormal(uint bits) {
-    vec2 p = max(vec2(int(bits << 16) >> 16, int(bits) >> 16) * (1.0 / 32767.0), -1.0);
+vec3 fromOctahedral(vec2 p) {
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     float fold = max(-n.z, 0.0);
     n.x += n.x >= 0.0 ? -fold : fold;
     n.y += n.y >= 0.0 ? -fold : fold;
     return n * inversesqrt(dot(n, n));
 }
+
+uint packNormal(vec3 n) {
+    ivec2 q = ivec2(floor(octahedral(n) * 32767.0 + 0.5));
+    return uint(q.x & 0xffff) | uint(q.y) << 16;
+}
+
+vec3 unpackNormal(uint bits) { return fromOctahedral(max(vec2(int(bits << 16) >> 16, int(bits) >> 16) * (1.0 / 32767.0), -1.0)); }
+
+/// A unit direction on a grid of 2^-19 in octahedral coordinates, 2e-6 radians: no finer, so that packing what was unpacked gives the same direction again.
+const float DIRECTION_STEPS = 524287.0;
+
+uvec2 packDirection(vec3 d) {
+    return uvec2(ivec2(floor(octahedral(d) * DIRECTION_STEPS + 0.5)));
+}
+
+vec3 unpackDirection(uvec2 bits) { return fromOctahedral(vec2(ivec2(bits)) * (1.0 / DIRECTION_STEPS)); }
 
 uint packTangent(vec4 tangent) {
     uint bits = (packNormal(tangent.xyz) & ~1u) | (tangent.w < 0.0 ? 1u : 0u);

@@ -15,10 +15,19 @@ void main() {
     EXPECT_NEAR(length(unpackNormal(packNormal(n))), 1.0, 5e-7);
     vec3 packed = unpackNormal(packNormal(n));
     EXPECT_NEAR(unpackNormal(packNormal(packed)), packed, 1e-6);  // once packed it stays
+    // A direction that is stored with a path: near, and exactly the same direction when packed again, or a path would not be what is stored of it.
+    for (uint i = 0u; i < 64u; ++i) {
+        vec3 d = safeNormalize(random3(uvec2(id, i), 1u, 0u) * 2.0 - 1.0, vec3(0, 0, 1));
+        if ((i & 1u) == 1u) d = safeNormalize(d * vec3(1.0, 1e-6, 1.0), vec3(0, 0, -1));  // along the folds of the map
+        uvec2 bits = packDirection(d);
+        EXPECT_NEAR(unpackDirection(bits), d, 4.5e-6);
+        EXPECT_EQ(unpackDirection(packDirection(unpackDirection(bits))), unpackDirection(bits));
+    }
     float sign = (id & 1u) == 0u ? 1.0 : -1.0;
     EXPECT_NEAR(unpackTangent(packTangent(vec4(n, sign))), vec4(n, sign), 1.4e-4);
     if (id > 0u) return;
     EXPECT_EQ(packNormal(vec3(0, 0, 1)), 0u);
+    EXPECT_EQ(packDirection(vec3(0, -1, 0)).xyy, uvec2(0u, uint(-524287)).xyy);
     EXPECT_EQ(packNormal(vec3(1, 0, 0)), 0x00007fffu);
     EXPECT_EQ(packNormal(vec3(-1, 0, 0)), 0x00008001u);
     EXPECT_EQ(packNormal(vec3(0, 1, 0)), 0x7fff0000u);

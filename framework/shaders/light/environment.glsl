@@ -16,11 +16,33 @@ vec3 environmentDirection(World w, vec2 uv) {
     return vec3(r * sin(phi), cos(theta), -r * cos(phi));
 }
 
+/// A point of the map. Texel and place are kept apart: of a map that is thousands of texels wide a float would round points across the borders of
+/// texels, where the density of light sampling jumps.
+struct EnvironmentPoint {
+    uint texel;  // row by row
+    vec2 place;  // inside the texel, [0,1)^2
+};
+
+EnvironmentPoint environmentPoint(World w, vec2 uv) {
+    vec2 at = max(uv, 0.0) * vec2(w.environmentSize);
+    uvec2 texel = min(uvec2(at), w.environmentSize - 1u);
+    return EnvironmentPoint(texel.y * w.environmentSize.x + texel.x, min(at - vec2(texel), 1.0));
+}
+
+uvec2 texelOf(World w, EnvironmentPoint p) {
+    uint row = p.texel / w.environmentSize.x;
+    return uvec2(p.texel - row * w.environmentSize.x, row);
+}
+
+vec2 environmentUv(World w, EnvironmentPoint p) { return (vec2(texelOf(w, p)) + p.place) / vec2(w.environmentSize); }
+
+vec3 environmentDirection(World w, EnvironmentPoint p) { return environmentDirection(w, environmentUv(w, p)); }
+
 /// Bilinear: columns repeat, rows end at the poles.
-vec3 environmentTexels(World w, vec2 uv) {
+vec3 environmentTexels(World w, EnvironmentPoint p) {
     ivec2 size = ivec2(w.environmentSize);
-    vec2 x = uv * vec2(size) - 0.5, low = floor(x), f = x - low;
-    ivec2 a = ivec2(low), b = a + 1;
+    vec2 x = p.place - 0.5, low = floor(x), f = x - low;
+    ivec2 a = ivec2(texelOf(w, p)) + ivec2(low), b = a + 1;
     a.x = a.x < 0 ? size.x - 1 : a.x;
     b.x = b.x >= size.x ? 0 : b.x;
     a = clamp(a, ivec2(0), size - 1);
@@ -37,26 +59,23 @@ vec3 environmentTexels(World w, vec2 uv) {
 /// Radiance from a unit direction.
 vec3 environmentRadiance(World w, vec3 d) {
     if (w.environmentLight == NONE) return vec3(0.0);
-    return environmentTexels(w, environmentUv(w, d));
+    return environmentTexels(w, environmentPoint(w, environmentUv(w, d)));
 }
 
-/// Solid-angle density at uv once the environment has been chosen. The table's density is constant inside a texel and per unit of uv;
+/// Solid-angle density at a point of the map once the environment has been chosen. The table's density is constant inside a texel and per unit of uv;
 /// d omega = 2 PI^2 sin(theta) du dv.
-float environmentDensity(World w, vec2 uv) {
-    uvec2 texel = min(uvec2(max(uv, 0.0) * vec2(w.environmentSize)), w.environmentSize - 1u);
-    return w.environment.at[texel.y * w.environmentSize.x + texel.x].density / (TWO_PI * PI * max(sin(PI * uv.y), 1e-6));
+float environmentDensity(World w, EnvironmentPoint p) {
+    return w.environment.at[p.texel].density / (TWO_PI * PI * max(sin(PI * environmentUv(w, p).y), 1e-6));
 }
 
 /// Density with which light sampling finds the unit direction d, per steradian; holds the chance that the environment is chosen.
 float environmentPdf(World w, vec3 d) {
     if (w.environmentLight == NONE) return 0.0;
-    return w.lights.at[w.environmentLight].pmf * environmentDensity(w, environmentUv(w, d));
+    return w.lights.at[w.environmentLight].pmf * environmentDensity(w, environmentPoint(w, environmentUv(w, d)));
 }
 
-/// A point of the map: a texel by the alias table (slot from 32 bits, keep), then anywhere in it (jitter).
-vec2 sampleEnvironmentUv(World w, uint slot, float keep, vec2 jitter) {
+/// A texel by the alias table: slot from 32 bits, keep in [0,1). Any place in it is as likely as another.
+uint sampleEnvironmentTexel(World w, uint slot, float keep) {
     uint i = scaledIndex(slot, w.environmentSize.x * w.environmentSize.y);
-    if (keep >= w.environment.at[i].aliasProbability) i = w.environment.at[i].alias;
-    uint row = i / w.environmentSize.x;
-    return (vec2(i - row * w.environmentSize.x, row) + jitter) / vec2(w.environmentSize);
+    return keep >= w.environment.at[i].aliasProbability ? w.environment.at[i].alias : i;
 }

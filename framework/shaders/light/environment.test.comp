@@ -59,15 +59,16 @@ void drawSamples(World w, uint id) {
         if (s.delta) continue;
         EXPECT_NEAR(length(s.direction), 1.0, 1e-5);
         EXPECT_EQ(s.distance, FAR);
-        vec2 uv = environmentUv(w, s.direction), turn = abs(uv - s.point.uv);
+        EnvironmentPoint point = EnvironmentPoint(s.point.texel, s.point.uv);
+        EXPECT_TRUE(s.pdf == PMF * environmentDensity(w, point) && all(lessThan(s.point.uv, vec2(1.0))));
+        vec2 uv = environmentUv(w, s.direction), turn = abs(uv - environmentUv(w, point));
         EXPECT_NEAR(vec2(min(turn.x, 1.0 - turn.x) * sin(PI * uv.y), turn.y), vec2(0.0), 2e-6);
         // At the very border of a texel rounding may put the direction into the next one.
-        vec2 inside = abs(fract(s.point.uv * vec2(SIZE)) - 0.5);
+        vec2 inside = abs(s.point.uv - 0.5);
         if (max(inside.x, inside.y) < 0.4999 && uv.y > 0.01 && uv.y < 0.99) EXPECT_NEAR(environmentPdf(w, s.direction) / s.pdf, 1.0, 2e-3);
         vec3 radiance = environmentRadiance(w, s.direction);
         EXPECT_NEAR(s.radianceOverPdf * s.pdf / radiance, vec3(1.0), 2e-3);
-        uvec2 texel = min(uvec2(s.point.uv * vec2(SIZE)), SIZE - 1u);
-        atomicAdd(testScratch[SUMS + 16u + texel.y * SIZE.x + texel.x], 1u);
+        atomicAdd(testScratch[SUMS + 16u + s.point.texel], 1u);
         float up = max(0.0, dot(s.direction, normalize(vec3(1, 2, 2)))), lit = s.radianceOverPdf.r * up;
         sums[0] += 1.0;
         sums[1] += 1.0 / s.pdf;   // the whole sphere

@@ -10,7 +10,8 @@
 /// A point of a light, found without knowing who looks: it can be stored and seen from elsewhere.
 struct LightPoint {
     uint light;  // index in World.lights, NONE: the scene has no light
-    vec2 uv;     // triangle: barycentrics, environment: map coordinates, else unused
+    uint texel;  // environment: EnvironmentPoint
+    vec2 uv;     // triangle: barycentrics, environment: place inside the texel, else unused
 };
 
 struct LightSample {
@@ -25,12 +26,11 @@ struct LightSample {
 
 /// Picks a light by the alias table and a point of it. choice = randomBits3(.., RANDOM_LIGHT_CHOICE), u = random3(.., RANDOM_LIGHT_POINT).
 LightPoint chooseLight(World w, uvec3 choice, vec3 u) {
-    if (w.lightCount == 0u) return LightPoint(NONE, vec2(0.0));
+    if (w.lightCount == 0u) return LightPoint(NONE, 0u, vec2(0.0));
     uint light = scaledIndex(choice.x, w.lightCount);
     if (unitFloat(choice.y) >= w.lights.at[light].aliasProbability) light = w.lights.at[light].alias;
-    vec2 uv = uniformTriangle(u.yz);
-    if (light == w.environmentLight) uv = sampleEnvironmentUv(w, choice.z, u.x, u.yz);
-    return LightPoint(light, uv);
+    if (light == w.environmentLight) return LightPoint(light, sampleEnvironmentTexel(w, choice.z, u.x), u.yz);
+    return LightPoint(light, 0u, uniformTriangle(u.yz));
 }
 
 /// Inverse square, a smooth end at the light's range, and a spot's cone.
@@ -75,9 +75,10 @@ LightSample lightSampleAt(World w, LightPoint point, vec3 position) {
     }
     float pmf = w.lights.at[point.light].pmf;
     if (type == LIGHT_ENVIRONMENT) {
-        s.direction = environmentDirection(w, point.uv);
-        s.pdf = pmf * environmentDensity(w, point.uv);
-        if (s.pdf > 0.0) s.radianceOverPdf = environmentTexels(w, point.uv) / s.pdf;
+        EnvironmentPoint p = EnvironmentPoint(point.texel, point.uv);
+        s.direction = environmentDirection(w, p);
+        s.pdf = pmf * environmentDensity(w, p);
+        if (s.pdf > 0.0) s.radianceOverPdf = environmentTexels(w, p) / s.pdf;
         return s;
     }
     s.delta = true;
@@ -93,6 +94,10 @@ LightSample lightSampleAt(World w, LightPoint point, vec3 position) {
     s.radianceOverPdf = intensity * punctualFalloff(w, point.light, s.direction, dot(way, way));
     return s;
 }
+
+/// Density of a light that is a vertex of a path, known by what it is and not by the random numbers that chose it: per steradian, or the mere chance
+/// of a light without extent. It doesn't belong to such a path's integrand, for the chances of all lights change as soon as one of them does.
+float vertexDensity(World w, LightSample l) { return l.delta ? w.lights.at[l.point.light].pmf : l.pdf; }
 
 LightSample sampleLight(World w, vec3 position, uvec3 choice, vec3 u) { return lightSampleAt(w, chooseLight(w, choice, u), position); }
 

@@ -145,7 +145,7 @@ const Case cases[] = Case[](
 
 void knownAnswers(World w) {
     for (uint i = 0u; i < cases.length(); ++i) {
-        LightSample s = lightSampleAt(w, LightPoint(cases[i].light, vec2(0.3)), cases[i].from);
+        LightSample s = lightSampleAt(w, LightPoint(cases[i].light, 0u, vec2(0.3)), cases[i].from);
         EXPECT_NEAR(s.radianceOverPdf * pmf[cases[i].light], cases[i].expected, 1e-4);
         EXPECT_TRUE(cases[i].light != 3u || abs(s.distance - (3.0 - cases[i].from.y)) < 1e-5);
         EXPECT_EQ(s.distance == FAR, cases[i].light == 5u);

@@ -37,7 +37,7 @@ struct PathTree {
     uint lobe;          // that lobe
     float lobePdf;      // its density of the direction to x_j, its chance included
     float pdf;          // of all lobes together; 0: camera or delta lobe
-    vec3 connected;     // throughput and pdf of x_{j-1} -> x_j if that is a connection: in the direction of the grid point
+    vec3 connected;     // throughput and pdf of x_{j-1} -> x_j if that is a connection: in the direction of its barycentrics
     float connectedPdf;
 
     uint k;             // reconnection vertex of paths that go on, 0: none yet
@@ -45,11 +45,11 @@ struct PathTree {
     uint lobeBefore, lobeAt;
     float density;      // of the directions at x_{k-1} and x_k: F's quotient between mixed measure and primary sample space
     vec3 suffix;        // f / p behind x_k
-    vec2 rcUv;
+    TrianglePlace rc;   // of x_k
 
     SampleHit first;    // x_1 of this tree
     Reservoir offered;  // a path, W missing
-    vec2 offeredUv;
+    TrianglePlace offeredRc;
     float offeredWeight;
 
     Ris ris;            // over all trees of the pixel
@@ -65,7 +65,8 @@ void treesStart(inout PathTree p) {
     p.kept = emptyReservoir(1.0);
 }
 
-void treeStart(inout PathTree p, World w, uvec2 seed, vec2 film, vec2 lens) {
+/// `ray`: the camera ray of the place `film` inside the pixel through `lens`.
+void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
     p.seed = seed;
     p.vertex = 0u;
     p.toLight = false;
@@ -81,22 +82,22 @@ void treeStart(inout PathTree p, World w, uvec2 seed, vec2 film, vec2 lens) {
     p.lobeBefore = p.lobeAt = 0u;
     p.density = 1.0;
     p.suffix = vec3(1.0);
-    p.rcUv = vec2(0.0);
+    p.rc = TrianglePlace(vec2(0.0), vec2(0.0));
     p.spine = emptyReservoir(1.0);
-    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), 0.0, vec2(0.0), vec2(0.0), uvec3(0));
-    p.ray = cameraRay(w, film, lens);
+    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), 0.0, vec2(0.0), p.rc, 0u);
+    p.ray = ray;
     p.from = p.ray.origin;
     p.onward = p.ray;
 }
 
 /// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `warp`: what resampling among
 /// light candidates adds to its weight.
-void offer(inout PathTree p, Reservoir path, PathShape shape, vec2 rcUv, vec3 F, float density, float warp) {
+void offer(inout PathTree p, Reservoir path, PathShape shape, TrianglePlace rc, vec3 F, float density, float warp) {
     path.seed = p.seed;
     path.shape = packShape(shape, 1.0);
     path.F = F * density;
     p.offered = path;
-    p.offeredUv = rcUv;
+    p.offeredRc = rc;
     p.offeredWeight = finiteWeight(luminance(F) * warp / p.survival);
 }
 
@@ -105,7 +106,7 @@ void takeOffer(inout PathTree p, uvec2 decisions) {
     if (!risAdd(p.ris, p.offeredWeight, random1(decisions, p.offers++, RANDOM_FREE))) return;
     p.kept = p.offered;
     p.keptHit = p.first;
-    p.keptHit.rcUv = p.offeredUv;
+    p.keptHit.rc = p.offeredRc;
 }
 
 /// Light that the spine ran into at x_j: an emitter's surface, or the environment (hit.primitive NONE).
@@ -116,7 +117,7 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
     PathShape shape = PathShape(p.vertex, p.k, false, environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE, p.lobeBefore, p.lobeAt);
     Reservoir path = p.spine;
     float density = p.density;
-    vec2 uv = p.rcUv;
+    TrianglePlace rc = p.rc;
     ConnectionCriteria criteria = criteriaOf(rules);
     bool connectable = p.k == 0u && p.vertex >= 2u && (environment ? environmentConnectable(criteria, p.before) : emitterConnectable(criteria, p.before, distance));
     if (connectable && !environment) {
@@ -134,13 +135,12 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
         shape.lobeBefore = p.lobe;
         path.rcInstance = hit.instance;
         path.rcPrimitive = hit.primitive;
-        path.rcBarycentrics = packBarycentrics(hit.barycentrics);
-        path.rcDirection = packNormal(direction);
+        path.rcDirection = packDirection(direction);
         path.G = environment ? 1.0 : connectionTerm(p.from, s);
         density = p.lobePdf;
-        if (!environment) uv = s.uv;
+        if (!environment) rc = TrianglePlace(hit.barycentrics, s.uv);
     }
-    offer(p, path, shape, uv, throughput * radiance * share, density, 1.0);
+    offer(p, path, shape, rc, throughput * radiance * share, density, 1.0);
 }
 
 /// A light sample at x_j (next-event estimation). False: no light.
@@ -169,7 +169,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     Reservoir path = p.spine;
     float density = p.density, pdfLight = light.delta ? 1.0 : light.pdf, roughness = roughestLobe(b, wo);
     vec3 throughput = p.throughput;
-    vec2 uv = p.rcUv;
+    TrianglePlace rc = p.rc;
     if (p.k > 0u) {
         path.radiance = p.suffix * chosen;
     } else if (p.vertex >= 2u && surfaceConnectable(criteriaOf(rules), p.before, roughness, distance)) {
@@ -177,23 +177,22 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         shape.lobeBefore = p.lobe;
         path.rcInstance = s.instance;
         path.rcPrimitive = s.primitive;
-        path.rcBarycentrics = packBarycentrics(s.barycentrics);
-        path.rcDirection = packNormal(light.direction);
+        path.rcDirection = packDirection(light.direction);
         path.radiance = light.radianceOverPdf * pdfLight;
         path.lightPdf = light.pdf;
         path.G = connectionTerm(p.from, s);
         density = p.lobePdf * pdfLight;
         throughput = p.connected;
-        uv = s.uv;
+        rc = TrianglePlace(s.barycentrics, s.uv);
     } else if (lightConnectable(rules, p.vertex, roughness, light.distance)) {
         shape.k = p.vertex + 1u;
         path.rcInstance = w.lights.at[light.point.light].instance;
-        path.rcPrimitive = light.delta ? light.point.light : w.lights.at[light.point.light].primitive;
-        path.rcBarycentrics = kind == PATH_LIGHT_ENVIRONMENT ? packUnorm2x16(light.point.uv) : packBarycentrics(light.point.uv);
+        path.rcPrimitive = light.delta ? light.point.light : kind == PATH_LIGHT_ENVIRONMENT ? light.point.texel : w.lights.at[light.point.light].primitive;
         path.G = connectionTerm(w, light);
-        density = pdfLight;
+        density = vertexDensity(w, light);
+        rc.barycentrics = light.point.uv;
     }
-    offer(p, path, shape, uv, throughput * chosen, density, warp);
+    offer(p, path, shape, rc, throughput * chosen, density, warp);
     p.ray = shadowRay(w, s, light);
     return true;
 }
@@ -216,11 +215,10 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
         p.lobeBefore = p.lobe;
         p.lobeAt = next.lobe;
         p.density = p.lobePdf * next.lobePdf;
-        p.rcUv = s.uv;
+        p.rc = TrianglePlace(s.barycentrics, s.uv);
         p.spine.rcInstance = s.instance;
         p.spine.rcPrimitive = s.primitive;
-        p.spine.rcBarycentrics = packBarycentrics(s.barycentrics);
-        p.spine.rcDirection = packNormal(next.wi);
+        p.spine.rcDirection = packDirection(next.wi);
         p.spine.G = connectionTerm(p.from, s);
         p.throughput = p.connected;
     }
@@ -254,10 +252,7 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
         radiance = environmentRadiance(w, direction);
         pdfLight = environmentPdf(w, direction);
     } else {
-        if (j >= 2u) {
-            hit.barycentrics = onGrid(hit.barycentrics);
-            direction = arrival(w, hit, p.from, direction);
-        }
+        if (j >= 2u) direction = arrival(w, hit, p.from, direction);
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - p.from);
         vec3 left = segmentTransmittance(w, s, distance);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What paths do at a vertex, alike where they are made (path_tree.glsl) and where they are shifted (shift.glsl).
 //
-// From x_2 on, vertices lie on a grid of 16 bits per barycentric, and directions that are not of delta lobes on one of 32 bits: the path is
-// exactly what a Reservoir stores of it, and a shift back finds the numbers that it started from. The grids are so fine that sums over them
-// stand for the integrals. What leaves x_{j-1} in the sampled direction arrives at x_j in the direction of the grid point.
+// Directions that are not of delta lobes lie on the grid that Reservoir stores them with: the path is exactly what is stored of it, and a shift
+// back finds the numbers that it started from. The grid is so fine that sums over it stand for the integrals. What leaves x_{j-1} in the
+// sampled direction arrives at x_j in the direction of its barycentrics, which is all that a connection knows of it.
 #include "base/random.glsl"
 #include "bsdf/material.glsl"
 #include "light/light.glsl"
@@ -12,10 +12,9 @@
 #include "restir/rules.h"
 #include "world/primary_hit.h"
 
-vec2 onGrid(vec2 barycentrics) { return unpackBarycentrics(packBarycentrics(barycentrics)); }
-vec3 onGrid(vec3 direction) { return unpackNormal(packNormal(direction)); }
+vec3 onGrid(vec3 direction) { return unpackDirection(packDirection(direction)); }
 
-/// The direction in which x_j, j >= 2, is reached from x_{j-1}: that of the grid point.
+/// The direction in which x_j, j >= 2, is reached from x_{j-1}.
 vec3 arrival(World w, Hit hit, vec3 from, vec3 direction) {
     return safeNormalize(positionOn(w, hit.instance, hit.primitive, hit.barycentrics) - from, direction);
 }
@@ -37,12 +36,7 @@ BsdfDirection pathDirection(Bsdf b, vec3 wo, uvec2 seed, uint vertex) {
 /// A light point of the path by its own numbers. Candidate 0 is the only one but at x_1 (ShiftRules.lightCandidates).
 LightPoint pathLight(World w, uvec2 seed, uint vertex, uint candidate) {
     uint tag = candidate << 8u;
-    LightPoint p = chooseLight(w, randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE | tag), random3(seed, vertex, RANDOM_LIGHT_POINT | tag));
-    if (p.light == NONE) return p;
-    uint type = w.lights.at[p.light].type;
-    if (type == LIGHT_TRIANGLE) p.uv = onGrid(p.uv);
-    if (type == LIGHT_ENVIRONMENT) p.uv = unpackUnorm2x16(packUnorm2x16(p.uv));
-    return p;
+    return chooseLight(w, randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE | tag), random3(seed, vertex, RANDOM_LIGHT_POINT | tag));
 }
 
 uint lightCandidates(ShiftRules rules, uint vertex) { return vertex == 1u ? rules.lightCandidates : 1u; }
@@ -76,14 +70,7 @@ bool lightConnectable(ShiftRules rules, uint vertex, float roughness, float dist
     return emitterConnectable(criteriaOf(rules), roughness, distance);
 }
 
-/// Place inside the pixel on a grid of 2^-11: coarse enough to survive the way through image coordinates and back in images of up to 4096
-/// pixels, where products and sums err by less than half a step.
-const float FILM_STEPS = 2048.0;
-vec2 filmGrid(vec2 place) { return floor(place * FILM_STEPS) / FILM_STEPS; }
-vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) { return (vec2(pixel) + place) / vec2(size); }
-vec2 filmPlace(vec2 film, ivec2 pixel, uvec2 size) { return round((film * vec2(size) - vec2(pixel)) * FILM_STEPS) / FILM_STEPS; }
-
-/// Do two camera rays coincide? The lens sample counts only where there is a lens.
+/// Do two camera rays of one pixel coincide? The lens sample counts only where there is a lens.
 bool sameCameraSample(World w, PrimaryHit a, vec2 film, vec2 lens) { return a.film == film && (w.camera.aperture <= 0.0 || a.lens == lens); }
 
 PrimaryHit primaryHit(Hit hit, vec2 film, vec2 lens) { return PrimaryHit(hit.instance, hit.primitive, hit.barycentrics, film, lens); }

@@ -33,16 +33,9 @@ PathShape unpackShape(uint bits) {
 float confidence(Reservoir r) { return unpackHalf2x16(r.shape >> SHAPE_CONFIDENCE).x; }
 void setConfidence(inout Reservoir r, float M) { r.shape = packShape(unpackShape(r.shape), M); }
 
-/// Barycentrics of the second and third vertex, 16 bits each. The second gives way where rounding both up would leave the triangle.
-uint packBarycentrics(vec2 b) {
-    uvec2 q = uvec2(clamp(b, 0.0, 1.0) * 65535.0 + 0.5);
-    return q.x | min(q.y, 65535u - q.x) << 16;
-}
-vec2 unpackBarycentrics(uint bits) { return vec2(bits & 0xffffu, bits >> 16) * (1.0 / 65535.0); }
-
 /// No path, but a confidence: a pixel that found no light knows as much as one that did.
 Reservoir emptyReservoir(float M) {
-    return Reservoir(uvec2(0), 0.0, packShape(PathShape(0u, 0u, false, 0u, 0u, 0u), M), vec3(0.0), 0.0, 0u, 0u, 0u, 0u, vec3(0.0), 1.0);
+    return Reservoir(uvec2(0), 0.0, packShape(PathShape(0u, 0u, false, 0u, 0u, 0u), M), vec3(0.0), 0.0, 0u, 0u, uvec2(0), vec3(0.0), 1.0);
 }
 
 bool holdsPath(Reservoir r) { return r.W > 0.0; }

@@ -2,7 +2,8 @@
 // A pixel's path with its weight: 64 bytes, shared by C++ and GLSL; restir/reservoir.glsl reads and writes the packed words.
 //
 // The path x0 (lens), x1 (primary hit), ..., x_d (light) keeps what a hybrid shift needs: the seed that replays its beginning, the
-// reconnection vertex x_k, and what comes after it (Lin et al. 2026, ReSTIR PT Enhanced, section 2.3). x0 and x1 are in SampleHit.
+// reconnection vertex x_k, and what comes after it (Lin et al. 2026, ReSTIR PT Enhanced, section 2.3). x0, x1 and where x_k lies on its
+// triangle are in SampleHit.
 #ifndef LODESTIR_RESERVOIR_H
 #define LODESTIR_RESERVOIR_H
 #include "../base/shared.h"
@@ -15,10 +16,9 @@ struct Reservoir {
     uint shape;           // SHAPE_*: lengths, technique, lobes, and the confidence M
     vec3 F;               // integrand in the mixed measure (restir/jacobian.glsl); the target p^ is its luminance
     float lightPdf;       // of light sampling, for the technique's MIS weight: per solid angle; per area where x_k is a light of some area
-    uint rcInstance;      // x_k: instance, primitive (World.primitives) and barycentrics; for a punctual light rcPrimitive is its
-    uint rcPrimitive;     // index in World.lights; for the environment none of them means anything
-    uint rcBarycentrics;  // unorm16 x 2
-    uint rcDirection;     // omega_k, octahedral (base/pack.glsl); where x_k is the environment, the direction to it
+    uint rcInstance;      // x_k: instance and primitive (World.primitives); for a punctual light rcPrimitive is its index in World.lights,
+    uint rcPrimitive;     // for the environment found by light sampling its texel
+    uvec2 rcDirection;    // omega_k (base/pack.glsl); where x_k is the environment, the direction to it
     vec3 radiance;        // what comes to x_k from omega_k, over the densities after x_k; where x_k is the light, what it sends
     float G;              // geometry term x_{k-1} -> x_k per barycentric area of x_k; 1 for environment and punctual lights, and if k = 0
 };

@@ -35,7 +35,7 @@ Reservoir someReservoir(uint id) {
     uvec2 seed = pathSeed(uvec2(id & 63u, id >> 6), 7u, 1u);
     vec3 a = random3(seed, 1u, 0u), b = random3(seed, 1u, 1u), c = random3(seed, 1u, 2u), direction = random3(seed, 1u, 3u) * 2.0 - 1.0;
     return Reservoir(seed, 10.0 * a.x, packShape(someShape(id), float(id) * 0.25), b, a.y, id, id * 3u + 1u,
-                     packBarycentrics(uniformTriangle(c.xy)), packNormal(safeNormalize(direction, vec3(0, 0, 1))), c, a.z);
+                     packDirection(safeNormalize(direction, vec3(0, 0, 1))), c, a.z);
 }
 
 void main() {
@@ -43,7 +43,7 @@ void main() {
     TestReservoirs memory = TestReservoirs(testPush.results);
     Reservoir r = someReservoir(id);
     PrimaryHit primary = PrimaryHit(id, id + 1u, vec2(0.25, 0.5), vec2(0.125, 0.75), vec2(0.5, 0.0));
-    SampleHit h = SampleHit(primary, 0.625, vec2(-3.5, float(id)), vec2(7.0, 8.0), uvec3(0));
+    SampleHit h = SampleHit(primary, 0.625, vec2(-3.5, float(id)), TrianglePlace(vec2(0.3, 0.1), vec2(7.0, 8.0)), 0u);
     if (testPush.pass == 0u) {
         memory.scratch[id] = r;
         memory.hits[id] = h;
@@ -55,11 +55,12 @@ void main() {
                   uvec4(r.seed, floatBitsToUint(r.W), r.shape));
         EXPECT_EQ(vec4(testFloats[base + 4u], testFloats[base + 5u], testFloats[base + 6u], testFloats[base + 7u]), vec4(r.F, r.lightPdf));
         EXPECT_EQ(uvec4(testScratch[base + 8u], testScratch[base + 9u], testScratch[base + 10u], testScratch[base + 11u]),
-                  uvec4(r.rcInstance, r.rcPrimitive, r.rcBarycentrics, r.rcDirection));
+                  uvec4(r.rcInstance, r.rcPrimitive, r.rcDirection));
         EXPECT_EQ(vec4(testFloats[base + 12u], testFloats[base + 13u], testFloats[base + 14u], testFloats[base + 15u]),
                   vec4(r.radiance, r.G));
         EXPECT_EQ(uvec2(testScratch[hits], testScratch[hits + 1u]).xyy, uvec2(other, other + 1u).xyy);
-        EXPECT_EQ(vec3(testFloats[hits + 8u], testFloats[hits + 10u], testFloats[hits + 12u]), vec3(0.625, float(other), 8.0));
+        EXPECT_EQ(vec3(testFloats[hits + 8u], testFloats[hits + 10u], testFloats[hits + 14u]), vec3(0.625, float(other), 8.0));
+        EXPECT_EQ(memory.hits[other].rc.barycentrics, vec2(0.3, 0.1));
         expectShape(unpackShape(memory.scratch[other].shape), someShape(other));
         EXPECT_EQ(memory.hits[other].uv, vec2(-3.5, float(other)));
         return;
@@ -74,17 +75,7 @@ void main() {
     EXPECT_EQ(packShape(unpackShape(r.shape), confidence(r)), r.shape);
     setConfidence(r, float(id & 2047u));
     EXPECT_EQ(confidence(r), float(id & 2047u));
-    // Barycentrics: near, inside the triangle, and the same when packed again.
-    vec2 b = uniformTriangle(random2(uvec2(id, 6), 0u, 0u));
-    if ((id & 1u) == 0u) b = vec2(float(id * 8u) + 0.5, 65534.5 - float(id * 8u)) / 65535.0;  // on the far edge, both halfway
-    vec2 unpacked = unpackBarycentrics(packBarycentrics(b));
-    EXPECT_NEAR(unpacked, b, 1.6 / 65535.0);
-    EXPECT_TRUE((packBarycentrics(b) & 0xffffu) + (packBarycentrics(b) >> 16) <= 65535u);
-    EXPECT_EQ(packBarycentrics(unpacked), packBarycentrics(b));
     if (id > 0u) return;
-    EXPECT_EQ(packBarycentrics(vec2(1, 0)), 0x0000ffffu);
-    EXPECT_EQ(packBarycentrics(vec2(0, 1)), 0xffff0000u);
-    EXPECT_EQ(packBarycentrics(vec2(0.5, 0.5)), 0x7fff8000u);
     // d = 3, k = 2, light sampling, environment, lobes 1 and 2, M = 1 (half: 0x3c00).
     uint bits = packShape(PathShape(3u, 2u, true, PATH_LIGHT_ENVIRONMENT, 1u, 2u), 1.0);
     EXPECT_EQ(bits, 3u | 2u << 5 | 1u << 10 | 1u << 11 | 1u << 13 | 2u << 15 | 0x3c00u << 17);

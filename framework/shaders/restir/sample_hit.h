@@ -7,14 +7,19 @@
 
 LODESTIR_SHARED_BEGIN
 
+/// Where a vertex lies on its triangle. Raw texture coordinates, not wrapped. A shift keeps them and never computes them anew from a hit, so that
+/// the map between levels finds the same candidates there and back.
+struct TrianglePlace {
+    vec2 barycentrics;  // of the second and third vertex; of a point of the environment found by light sampling: place inside its texel
+    vec2 uv;
+};
+
 struct SampleHit {
-    PrimaryHit hit;  // x1, with the film and lens sample that lead to it (Zhang et al. 2024, Area ReSTIR)
-    float time;      // within the exposure, [0,1)
-    // Raw texture coordinates, not wrapped. A shift keeps them and never computes them anew from a hit, so that the map between levels
-    // finds the same candidates there and back.
-    vec2 uv;         // of x1
-    vec2 rcUv;       // of the reconnection vertex x_k
-    uvec3 pad;
+    PrimaryHit hit;    // x1, with the film and lens sample that lead to it (Zhang et al. 2024, Area ReSTIR)
+    float time;        // within the exposure, [0,1)
+    vec2 uv;           // of x1, like TrianglePlace.uv
+    TrianglePlace rc;  // of the reconnection vertex x_k
+    uint pad;
 };
 
 LODESTIR_SHARED_END

@@ -57,20 +57,19 @@ void shiftBegin(inout Shift t, Reservoir path, SampleHit base, PrimaryHit first,
     t.from = ray.origin;
 }
 
-/// Starts the shift of `path`, whose camera sample is `base`, from pixel `from` to pixel `to` of an image of `size` pixels. `centre`: the known
-/// camera hit of pixel `to` in `w`, which saves a ray where it is of the same camera sample. False: the reservoir holds no path.
-bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 from, ivec2 to, uvec2 size, PrimaryHit centre, float jacobian, bool refresh) {
-    vec2 film = filmOf(to, filmPlace(base.hit.film, from, size), size);
-    t.known = sameCameraSample(w, centre, film, base.hit.lens);
+/// Starts the shift of `path`, whose camera sample is `base`, to pixel `to` of an image of `size` pixels. `centre`: the known camera hit of that
+/// pixel in `w`, which saves a ray where it is of the same camera sample. False: the reservoir holds no path.
+bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 to, uvec2 size, PrimaryHit centre, float jacobian, bool refresh) {
+    t.known = sameCameraSample(w, centre, base.hit.film, base.hit.lens);
     PrimaryHit first = centre;
-    if (!t.known) first = PrimaryHit(NONE, NONE, vec2(0.0), film, base.hit.lens);
-    shiftBegin(t, path, base, first, cameraRay(w, film, base.hit.lens), holdsPath(path) ? jacobian : 0.0, refresh);
+    if (!t.known) first = PrimaryHit(NONE, NONE, vec2(0.0), base.hit.film, base.hit.lens);
+    shiftBegin(t, path, base, first, cameraRay(w, filmOf(to, base.hit.film, size), base.hit.lens), holdsPath(path) ? jacobian : 0.0, refresh);
     return t.jacobian > 0.0;
 }
 
-/// Starts the shift of `path` to the camera hit `first` in `w`, which has its place on film and lens, and is asked for being seen from there.
-bool shiftStartAt(inout Shift t, World w, Reservoir path, SampleHit base, PrimaryHit first, float jacobian, bool refresh) {
-    Ray ray = cameraRay(w, first.film, first.lens);
+/// Starts the shift of `path` to the camera hit `first` of pixel `to` in `w`, which is asked for being seen from its place on film and lens.
+bool shiftStartAt(inout Shift t, World w, Reservoir path, SampleHit base, PrimaryHit first, ivec2 to, uvec2 size, float jacobian, bool refresh) {
+    Ray ray = cameraRay(w, filmOf(to, first.film, size), first.lens);
     if (first.primitive != NONE) {
         vec3 way = positionOn(w, first.instance, first.primitive, first.barycentrics) - ray.origin;
         ray.direction = safeNormalize(way, ray.direction);
@@ -148,10 +147,10 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
 
 /// The light point that x_k is. NONE where this World has no such light.
 LightPoint storedLight(World w, Shift t) {
-    if (t.shape.light == PATH_LIGHT_ENVIRONMENT) return LightPoint(w.environmentLight, unpackUnorm2x16(t.path.rcBarycentrics));
-    if (t.shape.light == PATH_LIGHT_PUNCTUAL) return LightPoint(t.path.rcPrimitive, vec2(0.0));
+    if (t.shape.light == PATH_LIGHT_ENVIRONMENT) return LightPoint(w.environmentLight, t.path.rcPrimitive, t.hit.rc.barycentrics);
+    if (t.shape.light == PATH_LIGHT_PUNCTUAL) return LightPoint(t.path.rcPrimitive, 0u, vec2(0.0));
     uint first = w.instances.at[t.path.rcInstance].firstLight, emitter = w.emitters.at[t.path.rcPrimitive];
-    return LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, unpackBarycentrics(t.path.rcBarycentrics));
+    return LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, 0u, t.hit.rc.barycentrics);
 }
 
 // What a vertex scatters towards.
@@ -198,18 +197,18 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         way = onGrid(light.direction);
     } else if (towards == TOWARDS_TARGET) {
         lobe = t.shape.lobeBefore;
-        way = unpackNormal(t.path.rcDirection);
+        way = unpackDirection(t.path.rcDirection);
         if (kind != RC_ENVIRONMENT) {
             if (!isShown(w, t.path.rcInstance, t.path.rcPrimitive)) {  // of a level that this World doesn't show
                 shiftFail(t);
                 return false;
             }
-            goal = positionOn(w, t.path.rcInstance, t.path.rcPrimitive, unpackBarycentrics(t.path.rcBarycentrics));
+            goal = positionOn(w, t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics);
             way = safeNormalize(goal - s.position, way);
         }
     } else {
         lobe = kind == RC_TO_LIGHT ? LOBE_ALL : t.shape.lobeAt;
-        way = unpackNormal(t.path.rcDirection);
+        way = unpackDirection(t.path.rcDirection);
     }
     float roughness = lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, lobe);
     if (!agreesOnConnection(t, target, surfaceConnectable(criteriaOf(rules), t.before, roughness, distance))) {
@@ -236,7 +235,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         t.vertex = t.shape.k;
         t.state = SHIFT_CONNECT;
         t.ray = kind == RC_ENVIRONMENT ? spawnRay(w, s, way) : rayBetween(w, s, goal);
-        hit = Hit(0.0, unpackBarycentrics(t.path.rcBarycentrics), kind == RC_ENVIRONMENT ? NONE : t.path.rcPrimitive, t.path.rcInstance);
+        hit = Hit(0.0, t.hit.rc.barycentrics, kind == RC_ENVIRONMENT ? NONE : t.path.rcPrimitive, t.path.rcInstance);
         direction = way;
         target = true;
         if (t.throughput == vec3(0.0)) shiftFail(t);
@@ -252,7 +251,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         if (t.shape.k == 0u || stored) {
             if (lightConnectable(rules, j, roughness, light.distance) != stored) shiftFail(t);
         }
-        reachLight(t, value.all * light.radianceOverPdf * (stored ? density : 1.0), share, 0.0);
+        reachLight(t, value.all * light.radianceOverPdf * (stored ? vertexDensity(w, light) : 1.0), share, 0.0);
         if (stored) {
             float G = connectionTerm(w, light);
             t.jacobian *= reconnectionJacobian(G, t.path.G);
@@ -271,7 +270,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         t.jacobian *= jacobianRatio(t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);
         t.path.lightPdf = pdfLight;
         t.path.radiance = light.radianceOverPdf * density;
-        t.path.rcDirection = packNormal(way);
+        t.path.rcDirection = packDirection(way);
     }
     t.prefix = t.throughput * (sampled ? value.all : value.one);
     t.path.F = t.prefix * t.path.radiance * share;
@@ -294,8 +293,6 @@ bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
         if (++t.vertex == 1u) {
             if (t.known) hit = hitOf(t.hit.hit);
             t.hit.hit = primaryHit(hit, t.hit.hit.film, t.hit.hit.lens);
-        } else {
-            hit.barycentrics = onGrid(hit.barycentrics);
         }
         bool target = false;
         while (shiftVertex(t, w, rules, hit, direction, target)) {}

@@ -10,7 +10,7 @@ struct PrimaryHit {
     uint instance;
     uint primitive;     // World.primitives index, NONE: the ray left the scene
     vec2 barycentrics;  // of the second and third vertex
-    vec2 film;          // [0,1]^2 over the image, y down
+    vec2 film;          // place inside the pixel, [0,1)^2, y down: what a path keeps on its way to another pixel
     vec2 lens;          // [0,1]^2, see world/camera.glsl
 };
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Faults planted in shaders: a fault is a copy of a pass's library under another name, with the changed shader beside it, where it is found before
+// the right one.
+#pragma once
+#include "source_folder.h"
+
+#include <framework/core/files.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace lodestir::test {
+
+struct Fault {
+    std::string type;  ///< of the faulty pass
+    std::string pass;  ///< that it is a copy of
+    Path file;         ///< in framework/shaders, or of the pass's folder
+    std::string right, wrong;
+};
+
+/// Makes the faulty passes in a folder. The right text must be there exactly once: a fault that can't be planted any more is a failure.
+inline void plant(const Path& folder, const std::vector<Fault>& faults) {
+    for (const Fault& fault : faults) {
+        const Path shared = sourceFolder / "framework/shaders" / fault.file, own = sourceFolder / "passes" / fault.pass / fault.file;
+        std::string text = readText(std::filesystem::exists(shared) ? shared : own);
+        const std::size_t at = text.find(fault.right);
+        ASSERT_NE(at, text.npos) << fault.type << ": not in " << fault.file;
+        ASSERT_EQ(text.find(fault.right, at + 1), text.npos) << fault.type << ": twice in " << fault.file;
+        text.replace(at, fault.right.size(), fault.wrong);
+        writeFile(folder / fault.type / fault.file, text);
+        std::filesystem::copy_file(passFolder() / fault.pass / ("lib" + fault.pass + ".so"),
+                                   folder / fault.type / ("lib" + fault.type + ".so"));
+    }
+}
+
+}  // namespace lodestir::test
