@@ -117,14 +117,18 @@ struct RoundTrips {
         std::vector<double> hither, thither;
 
         Ratio ratio() const { return ratioOf(hither, thither); }
+        double mean() const { return meanOf(thither).value; }
     };
     struct Kind {
         std::size_t returned = 0;
         std::vector<float> errorsF;  ///< of those that returned
         Energy all;
-        Energy
-            stretched;  ///< of paths whose directions spread on the way here: a Jacobian can't be wrong by one factor there and its inverse back
+        Energy stretched;  ///< of paths whose directions spread on the way here: a Jacobian can't be wrong by one factor there and its inverse back
+        Energy unequal;    ///< of paths worth more than four times as much at one end as at the other: they count for little in `all`
+
+        std::array<const Energy*, 3> energies() const { return {&all, &stretched, &unequal}; }
     };
+    static constexpr std::array<const char*, 3> energyNames{"", ", stretched", ", unequal"};
     std::size_t tried = 0, there = 0, lost = 0, different = 0;
     float worstJacobian = 0;
     std::vector<float> errorsMis;
@@ -144,10 +148,11 @@ struct RoundTrips {
             Kind& kind = kinds[std::size_t(pathEnd(r.shape))];
             // e s / (e + s) is no more than either, so its mean has no heavy tail; and both ends give the same function of the path.
             const double e = finite(r.energy), s = finite(r.energyShifted), shared = e + s > 0 ? e * s / (e + s) : 0;
-            const bool hither = i % 2 == 0, stretched = hither ? r.stretch > 1 : r.stretch < 1;
+            const bool hither = i % 2 == 0, stretched = hither ? r.stretch > 1 : r.stretch < 1, unequal = std::max(e, s) > 4 * std::min(e, s);
             for (Kind* k : {&kind, &all}) {
                 (hither ? k->all.hither : k->all.thither).back() += shared;
                 if (stretched) (hither ? k->stretched.hither : k->stretched.thither).back() += shared;
+                if (unequal) (hither ? k->unequal.hither : k->unequal.thither).back() += shared;
             }
             if (!(r.outcome & CHECK_BACK)) ++lost;
             if (!(r.outcome & CHECK_BACK)) continue;
@@ -168,7 +173,7 @@ struct RoundTrips {
 
 private:
     static void begin(Kind& kind) {
-        for (Energy* energy : {&kind.all, &kind.stretched}) {
+        for (Energy* energy : {&kind.all, &kind.stretched, &kind.unequal}) {
             energy->hither.push_back(0);
             energy->thither.push_back(0);
         }

@@ -18,11 +18,13 @@ vec2 octahedral(vec3 n) {
 }
 
 vec3 fromOctahedral(vec2 p) {
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    precise vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));  // the same in each kernel: a direction that is stored is what its path is
     float fold = max(-n.z, 0.0);
     n.x += n.x >= 0.0 ? -fold : fold;
     n.y += n.y >= 0.0 ? -fold : fold;
-    return n * inversesqrt(dot(n, n));
+    precise float squared = dot(n, n);
+    n *= inversesqrt(squared);
+    return n;
 }
 
 uint packNormal(vec3 n) {

@@ -10,8 +10,9 @@ struct ConnectionCriteria {
     float distance;   // least length of the connection, scene units: shorter ones have Jacobians without bound
 };
 
-/// A delta lobe is never rough, even with a threshold of 0.
-bool isRough(ConnectionCriteria c, float roughness) { return roughness > 0.0 && roughness >= c.roughness; }
+/// A delta lobe is never rough, even with a threshold of 0. Compared in steps of 2^-12: many a material's roughness is the threshold itself, and no
+/// kernel must see it on another side because its compiler rounded another way.
+bool isRough(ConnectionCriteria c, float roughness) { return roughness > 0.0 && round(roughness * 4096.0) >= round(c.roughness * 4096.0); }
 
 /// May x_{j-1} and x_j be connected? `before`: roughness of the lobe sampled at x_{j-1}, `at`: at x_j.
 bool surfaceConnectable(ConnectionCriteria c, float before, float at, float distance) {

@@ -14,7 +14,10 @@ vec3 lensOffset(World w, vec2 lens) {
 
 /// Film point of a place inside a pixel, [0,1)^2, of an image of `size` pixels. Places are what is stored: a float of the whole film would lose
 /// some of their bits, so that a path came back to another place than it left, or to the next pixel.
-vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) { return (vec2(pixel) + place) / vec2(size); }
+vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) {
+    precise vec2 film = (vec2(pixel) + place) / vec2(size);
+    return film;
+}
 
 /// film in [0,1]^2, x to the right and y down. All rays of one film point meet in the plane of focus. Unit direction.
 Ray cameraRay(World w, vec2 film, vec2 lens) {

@@ -19,7 +19,8 @@ struct TrianglePoint {
 TrianglePoint pointOn(World w, uvec3 corners, vec2 barycentrics) {
     vec3 a = w.positions.at[corners.x].xyz;
     vec3 edge1 = w.positions.at[corners.y].xyz - a, edge2 = w.positions.at[corners.z].xyz - a;
-    return TrianglePoint(a + barycentrics.x * edge1 + barycentrics.y * edge2, edge1, edge2);
+    precise vec3 position = a + barycentrics.x * edge1 + barycentrics.y * edge2;  // kernels that make a path and that shift it find one point
+    return TrianglePoint(position, edge1, edge2);
 }
 
 /// Texture coordinates of set 0 or 1.
