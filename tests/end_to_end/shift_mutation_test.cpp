@@ -104,12 +104,10 @@ TEST_F(Mutations, BetweenFrames) {
 // What behind glass has been absorbed once is absorbed again by every shift.
 TEST_F(Mutations, AbsorbedTwice) {
     plant(folder.path,
-          {{"absorbed_twice", "initial_sampling", "restir/path_tree.glsl", "if (p.k > 0u) p.suffix *= left;", "p.suffix *= left;"},
-           {"off_grid", "initial_sampling", "restir/path_tree.glsl", "p.connected = p.incoming * value.one / p.lobePdf * left;",
-            "p.connected = p.throughput;"}});
+          {{"absorbed_twice", "initial_sampling", "restir/path_tree.glsl", "if (p.k > 0u) p.suffix *= left;", "p.suffix *= left;"}});
     ASSERT_FALSE(HasFailure());
     OrderedJson passes{{"hits", hitsNode()}};
-    const std::vector<std::string> checks{"right", "absorbed_twice", "off_grid"};
+    const std::vector<std::string> checks{"right", "absorbed_twice"};
     for (const std::string& check : checks) {
         const std::string initial = check + "_initial";
         passes[initial] = initialNode({{"bounces", 6}});
@@ -121,9 +119,8 @@ TEST_F(Mutations, AbsorbedTwice) {
         {.scene = sceneFile("ensemble_glass"), .size = {64, 64}, .passes = passes, .checks = checks, .libraries = {folder.path}});
     auto trips = tripsOf(session, checks, 24);
     const RoundTrips& right = trips["right"];
-    for (const char* fault : {"absorbed_twice", "off_grid"})
-        expectFound("F there and back", fault, RoundTrips::shareAbove(trips[fault].all.errorsF, 1e-3f) > 1e-4,
-                    RoundTrips::shareAbove(trips[fault].all.errorsF, 1e-3f), RoundTrips::shareAbove(right.all.errorsF, 1e-3f));
+    const double share = RoundTrips::shareAbove(trips["absorbed_twice"].all.errorsF, 1e-3f);
+    expectFound("F there and back", "absorbed_twice", share > 1e-4, share, RoundTrips::shareAbove(right.all.errorsF, 1e-3f));
 }
 
 /// Energies of images over independent frames or chains of them.
@@ -189,7 +186,8 @@ TEST_F(Mutations, Furnace) {
     ShiftSession session({.scene = sceneFile("furnace"), .size = {32, 32}, .passes = passes, .images = images, .libraries = {folder.path}});
     const Energies energies = energiesOf(session, images, 8, 6);
     const std::vector<double> exact(8, 1.75);
-    EXPECT_TRUE(ratioOf(energies.at("right_image"), exact).isOne());
+    const Ratio right = ratioOf(energies.at("right_image"), exact);
+    EXPECT_NEAR(right.value, 1, 1e-5) << "no path of it is noisy: but for rounding it is exact";
     expectNotOne("furnace", "cap_on_one_side", ratioOf(energies.at("cap_on_one_side_image"), exact));
 }
 
