@@ -19,6 +19,8 @@ namespace {
 constexpr std::int64_t largestImage = std::int64_t(1) << 28;  // texels: 1 GiB once decoded
 constexpr std::int64_t jpegTexelsPerByte = 512;               // at most: a block of 64 takes a bit at least
 
+template <class T> using StbPixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
+
 Wrap wrapOf(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
@@ -42,7 +44,7 @@ std::string_view foreignFormat(std::span<const std::byte> bytes) {
     return text.starts_with("DDS ") ? "DDS" : "";
 }
 
-void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
+bool decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     if (bytes.empty()) throw Error("the image has no data");
     if (bytes.size() > 0x7fffffff) throw Error("the image file is larger than 2 GiB");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -61,12 +63,24 @@ void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     // A JPEG may break off anywhere, the rest being grey: without this, ten bytes could ask for a gigabyte of it.
     if (isJpeg && std::int64_t(width) * height / jpegTexelsPerByte > size)
         throw Error(fmt::format("the image claims {}x{} texels, more than its {} bytes can hold", width, height, size), "is the file cut short?");
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4),
-                                                           stbi_image_free);
-    if (!pixels) throw Error(fmt::format("the image cannot be decoded: {}", stbi_failure_reason()), "is the file cut short?");
-    texture.width = width;
-    texture.height = height;
-    texture.rgba.assign(pixels.get(), pixels.get() + std::size_t(4) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const std::size_t values = std::size_t(4) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const auto keep = [&](const auto* pixels, auto narrow) {
+        if (!pixels) throw Error(fmt::format("the image cannot be decoded: {}", stbi_failure_reason()), "is the file cut short?");
+        texture.width = width;
+        texture.height = height;
+        texture.rgba.resize(values);
+        std::transform(pixels, pixels + values, texture.rgba.begin(), narrow);
+    };
+    const bool isWide = stbi_is_16_bit_from_memory(data, size);
+    if (isWide) {
+        const StbPixels<stbi_us> pixels(stbi_load_16_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+        // To the nearest; stb itself drops the lower byte, up to a step away.
+        keep(pixels.get(), [](stbi_us value) { return static_cast<std::uint8_t>((value * 255u + 32767u) / 65535u); });
+    } else {
+        const StbPixels<stbi_uc> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+        keep(pixels.get(), [](stbi_uc value) { return value; });
+    }
+    return isWide;
 }
 
 std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
@@ -121,6 +135,7 @@ void GltfTextures::decode() {
     const std::vector<std::pair<int, std::vector<std::uint32_t>>> images(users_.begin(), users_.end());
     std::vector<std::optional<Error>> errors(images.size());
     std::vector<std::string_view> foreign(images.size());
+    std::vector<char> wide(images.size(), 0);
     const GltfFile& file = import_.file;
     parallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -130,7 +145,7 @@ void GltfTextures::decode() {
                 foreign[i] = foreignFormat(bytes);
                 if (!foreign[i].empty()) continue;
                 Texture& first = import_.scene.textures[users[0]];
-                decodeImage(bytes, first);
+                wide[i] = decodeImage(bytes, first);
                 for (std::size_t user = 1; user < users.size(); ++user) {
                     Texture& other = import_.scene.textures[users[user]];
                     other.width = first.width;
@@ -144,6 +159,7 @@ void GltfTextures::decode() {
         }
     });
     for (std::size_t i = 0; i < images.size(); ++i) {
+        if (wide[i]) import_.note("images of 16 bits a channel are kept with 8");
         if (errors[i]) import_.problems.add(*errors[i]);
         if (!foreign[i].empty()) leaveOut(images[i].first, foreign[i]);
     }

@@ -30,8 +30,9 @@ private:
     std::map<int, std::vector<std::uint32_t>> users_;  ///< Scene textures of each image
 };
 
-/// Decodes PNG, JPEG, BMP, TGA or GIF bytes to 8-bit RGBA into width, height and rgba of `texture`. Error without a place when it cannot.
-void decodeImage(std::span<const std::byte> bytes, Texture& texture);
+/// Decodes PNG or JPEG bytes to 8-bit RGBA into width, height and rgba of `texture`. True where the image had 16 bits a channel, which were
+/// rounded. Error without a place when it cannot.
+bool decodeImage(std::span<const std::byte> bytes, Texture& texture);
 
 /// "WebP", "KTX" or "DDS": formats that glTF files name but that cannot be decoded here; else empty.
 std::string_view foreignFormat(std::span<const std::byte> bytes);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF models: known answers on small ones made here; nothing read out of bounds.
 #include "gltf_model.h"
+#include "png_bytes.h"
 
 #include <framework/core/error.h>
 #include <framework/scene/gltf.h>
@@ -300,6 +301,21 @@ TEST(Gltf, TransformsTextureCoordinates) {
 }
 
 // If this fails, glass, lamps and cut-outs look like plaster.
+// If this fails, textures of 16 bits are off by a step of 8 bits, or silently lose what they have more.
+TEST(Gltf, RoundsTexturesOfSixteenBitsAndSaysSo) {
+    GltfModel model;
+    const std::string pixels{0, 1, '\xff', '\xfe', 0};  // a row of one pixel: grey and opacity
+    std::filesystem::create_directories(folder());
+    writeFile(folder() / "wide.png", pngFile({{"IHDR", pngHeader(1, 16, 4)}, {"IDAT", stored(pixels)}}));
+    model.json["images"] = {{{"uri", "wide.png"}}};
+    model.json["textures"] = {{{"source", 0}}};
+    model.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    model.addTriangle();
+    const Scene scene = load(model);
+    EXPECT_EQ(scene.textures.at(0).rgba, (std::vector<std::uint8_t>{2, 2, 2, 253}));
+    EXPECT_TRUE(hasNote(scene, "16 bits"));
+}
+
 TEST(Gltf, ReadsMaterialExtensions) {
     GltfModel model;
     model.addTriangle();
