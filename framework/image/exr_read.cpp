@@ -4,6 +4,7 @@
 #include <framework/core/files.h>
 #include <framework/core/log.h>
 #include <framework/image/exr.h>
+#include <framework/image/exr_attributes.h>
 #include <framework/image/exr_layers.h>
 #include <framework/image/exr_stream.h>
 
@@ -226,6 +227,7 @@ template <class Choose> ExrFile readFile(const Path& path, const Choose& choose)
     const std::vector<std::byte> bytes = readBytes(path);
     constexpr std::byte magic[] = {std::byte{0x76}, std::byte{0x2f}, std::byte{0x31}, std::byte{0x01}};
     if (bytes.size() < 4 || !std::equal(magic, magic + 4, bytes.begin())) refuse(path, "is not an OpenEXR file");
+    if (const auto flaw = attributeFlaw(bytes)) refuse(path, "is damaged or cut: " + *flaw);
     try {
         return decode(bytes, path, choose);
     } catch (const Error&) {

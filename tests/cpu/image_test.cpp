@@ -406,6 +406,34 @@ TEST_F(Images, ExrOfAbsurdSizeIsRefusedBeforeMemoryIsTaken) {
     EXPECT_NE(refusal([&] { checkImageSize("f", 0, 8, 4); }), "");
 }
 
+// OpenEXR would take the memory first: found by the fuzzer, as an attribute of 1.9 GB in a file of a kilobyte.
+TEST_F(Images, ExrWithAnAttributeOfAbsurdSizeIsRefused) {
+    writeExr(folder / "a.exr", noise(4, 3, 3), {.attributes = {{"note", "abcd"}}});
+    const std::string whole = readText(folder / "a.exr");
+    const auto tell = [&](std::string_view before, std::string_view value) {
+        std::string damaged = whole;
+        damaged.replace(damaged.find(before) + before.size(), value.size(), value);
+        writeFile(folder / "d.exr", damaged);
+        return refusal([&] { readExr(folder / "d.exr"); });
+    };
+    using namespace std::string_view_literals;
+    EXPECT_NE(tell("note\0string\0"sv, "\0\0\0\x70"sv).find("its attribute \"note\" leaves the file"), std::string::npos);
+    EXPECT_NE(tell("lineOrder\0lineOrder\0"sv, "\x02"sv).find("its attribute \"lineOrder\" has a wrong size"), std::string::npos);
+    EXPECT_NE(tell("channels\0chlist\0"sv, "\x20"sv).find("its attribute \"channels\" has a wrong size"), std::string::npos);
+    const auto tellOf = [&](std::string_view type, std::string_view value) {
+        std::string file("\x76\x2f\x31\x01\x02\0\0\0any\0"sv);
+        file += std::string(type) + '\0' + static_cast<char>(value.size()) + std::string(3, '\0') + std::string(value);
+        writeFile(folder / "d.exr", file);
+        return refusal([&] { readExr(folder / "d.exr"); });
+    };
+    for (const auto& [type, value] :
+         {std::pair("stringvector"sv, "\0\0\0\x70"sv), {"preview"sv, "\0\x40\0\0\0\x40\0\0"sv}, {"m44f"sv, "1"sv}})
+        EXPECT_NE(tellOf(type, value).find("its attribute \"any\" has a wrong size"), std::string::npos)
+            << type << ": " << tellOf(type, value);
+    EXPECT_NE(tellOf("stringvector", "\1\0\0\0a"sv).find("it ends too early"), std::string::npos)
+        << "this one is whole, what follows isn't there";
+}
+
 // Files far smaller than what they claim are read on trial first. If this fails, that trial spoils or refuses images that are only smooth.
 TEST_F(Images, ExrOfFewBytesKeepsItsPixels) {
     ImageData smooth = makeImage(2048, 600, 2);
