@@ -83,10 +83,10 @@ bool decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     return isWide;
 }
 
-std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
+std::uint32_t GltfTextures::use(int index, bool srgb) {
     const tinygltf::Model& model = import_.file.model;
     if (index < 0 || static_cast<std::size_t>(index) >= model.textures.size()) {
-        import_.problem(user, fmt::format("there is no texture {}, the file has {}", index, model.textures.size()));
+        import_.note(fmt::format("there is no texture {}, the file has {}; it is left out", index, model.textures.size()));
         return none;
     }
     const tinygltf::Texture& texture = model.textures[static_cast<std::size_t>(index)];
@@ -97,26 +97,22 @@ std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
         return none;
     }
     if (static_cast<std::size_t>(texture.source) >= imageCount) {
-        import_.problem(fmt::format("/textures/{}/source", index),
-                        fmt::format("there is no image {}, the file has {}", texture.source, imageCount));
+        import_.note(fmt::format("there is no image {}, the file has {}; texture {} is left out", texture.source, imageCount, index));
         return none;
     }
     tinygltf::Sampler sampler;
-    if (texture.sampler >= 0) {
-        if (static_cast<std::size_t>(texture.sampler) >= model.samplers.size()) {
-            import_.problem(fmt::format("/textures/{}/sampler", index),
-                            fmt::format("there is no sampler {}, the file has {}", texture.sampler, model.samplers.size()));
-            return none;
-        }
+    if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size())
         sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
-    }
+    else if (texture.sampler >= 0)
+        import_.note(
+            fmt::format("there is no sampler {}, the file has {}; texture {} repeats", texture.sampler, model.samplers.size(), index));
     const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     const Key key{texture.source, srgb, nearest, wrapOf(sampler.wrapS), wrapOf(sampler.wrapT)};
     const auto [place, isNew] = textures_.try_emplace(key, static_cast<std::uint32_t>(import_.scene.textures.size()));
     if (isNew) {
         const Json& image = images->items()[static_cast<std::size_t>(texture.source)];
         const Json *name = image.find("name"), *uri = image.find("uri");
-        const bool fileNamed = uri && uri->isString() && !uri->asString().starts_with("data:");
+        const bool fileNamed = uri && uri->isString() && !isDataUri(uri->asString());
         import_.scene.textures.push_back({
             .name = name && name->isString() ? name->asString()
                     : fileNamed              ? percentDecode(uri->asString())
@@ -153,27 +149,27 @@ void GltfTextures::decode() {
                     other.rgba = first.rgba;
                 }
             } catch (const Error& error) {
-                errors[i] =
-                    error.problems()[0].where.file == file.path.string() ? error : file.error(fmt::format("/images/{}", index), error);
+                errors[i] = error;
             }
         }
     });
     for (std::size_t i = 0; i < images.size(); ++i) {
         if (wide[i]) import_.note("images of 16 bits a channel are kept with 8");
-        if (errors[i]) import_.problems.add(*errors[i]);
-        if (!foreign[i].empty()) leaveOut(images[i].first, foreign[i]);
+        if (!foreign[i].empty()) import_.note(fmt::format("{} images cannot be read; textures of that format are left out", foreign[i]));
+        if (errors[i]) import_.noteLeftOut(fmt::format("image {}", images[i].first), *errors[i]);
+        if (errors[i] || !foreign[i].empty()) leaveOut(images[i].first);
     }
 }
 
-void GltfTextures::leaveOut(int image, std::string_view format) {
-    import_.note(fmt::format("{} images cannot be read; textures of that format are left out", format));
+void GltfTextures::leaveOut(int image) {
     for (const std::uint32_t texture : users_[image]) {
         Texture& empty = import_.scene.textures[texture];
         empty.width = empty.height = 1;
         empty.rgba = {255, 255, 255, 255};
         for (std::size_t m = import_.materialBase; m < import_.scene.materials.size(); ++m) {
             Material& material = import_.scene.materials[m];
-            if (material.emissiveMap.texture == texture) material.emission = glm::vec3(0);  // the map said where; all of it would be wrong
+            if (material.emissiveMap.texture == texture && !material.unlit)
+                material.emission = glm::vec3(0);  // as where a file has no such texture
             for (TextureSlot* slot : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap, &material.occlusionMap,
                                       &material.emissiveMap, &material.transmissionMap}) {
                 if (slot->texture == texture) *slot = {};
