@@ -34,10 +34,8 @@ struct CompareArguments {
     std::vector<double> flipExposures;  ///< start, stop, count; empty: chosen from the reference
 };
 
-/// Opacity is no light: the same picture must have the same error whether it was saved with opacity or without.
 ImageData readColor(const Path& path) {
-    const ImageData image = readImage(path);
-    const ImageData color = image.channels == 4 || image.channels == 2 ? firstChannels(image, image.channels - 1) : image;
+    const ImageData color = withoutOpacity(readImage(path));
     const auto broken = std::ranges::count_if(color.values, [](float value) { return !std::isfinite(value); });
     if (broken > 0) log::warn("{}: {} values are not finite numbers", path.string(), broken);
     return color;

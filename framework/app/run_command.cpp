@@ -32,9 +32,6 @@ struct RunOptions {
     bool checkNan = false, lastOnly = false, json = false;
 };
 
-/// Colour channels only, so that an image with an alpha of 1 compares with one without.
-ImageData colorOf(const ImageData& image) { return image.channels == 4 ? firstChannels(image, 3) : image; }
-
 void requireFinite(const ImageData& image, const std::string& name) {
     std::size_t bad = 0, first = 0;
     for (std::size_t i = image.values.size(); i-- > 0;)
@@ -67,7 +64,7 @@ int runGraph(const RunOptions& options) {
     Graph& graph = session.graph();
     Runner& runner = session.runner();
     std::unique_ptr<ImageData> reference;
-    if (!options.reference.empty()) reference = std::make_unique<ImageData>(colorOf(readImage(options.reference)));
+    if (!options.reference.empty()) reference = std::make_unique<ImageData>(withoutOpacity(readImage(options.reference)));
     const std::string shown = graph.nameOf(graph.show), resolved = graph.resolved().dump(-1);
     const std::string shownName = graph.description.showPort.empty() ? graph.description.showNode : shown;
     const bool shownIsImage = graph.port(graph.show).type.kind == PortType::Kind::image;
@@ -91,7 +88,7 @@ int runGraph(const RunOptions& options) {
         if (shownIsImage && (write || reference || options.checkNan)) {
             const ImageData image = runner.readImage(graph.show);
             if (options.checkNan) requireFinite(image, shown);
-            if (reference) metrics = evaluateAll(options.metrics, colorOf(image), *reference, how);
+            if (reference) metrics = evaluateAll(options.metrics, withoutOpacity(image), *reference, how);
             if (write) {
                 writeExr(options.out / (shownName + suffix + ".exr"), image, {.attributes = {{"lodestir", resolved}}});
                 writePng(options.out / (shownName + suffix + ".png"), preview(image));

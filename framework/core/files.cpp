@@ -4,6 +4,7 @@
 #include <framework/core/files.h>
 #include <framework/core/is_file.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -164,6 +165,15 @@ bool writeNameless(const Path& target, std::span<const std::byte> bytes) {
 bool isFile(const Path& path) {
     std::error_code none;
     return fs::is_regular_file(path, none);
+}
+
+Path namedPath(const Path& folder, const std::string& name) {
+    Path literal = folder / name;
+    if (name.find('\\') == name.npos || isFile(literal)) return literal;
+    std::string slashes = name;
+    std::ranges::replace(slashes, '\\', '/');
+    Path other = folder / slashes;
+    return isFile(other) ? other : literal;
 }
 
 std::string readText(const Path& path) { return readWhole<std::string>(path); }

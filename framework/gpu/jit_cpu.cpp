@@ -10,6 +10,9 @@
 
 #include <framework/core/api.h>
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
 #include <dlfcn.h>
 #include <link.h>
 
@@ -38,10 +41,15 @@ std::string_view overriddenCaps() {
     return caps ? caps : "";
 }
 bool hasAvx512() { return overriddenCaps().empty() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"); }
+/// By CPUID itself: not every compiler's __builtin_cpu_supports knows their names.
+bool hasLzcntAndMovbe() {
+    unsigned a = 0, b = 0, plain = 0, extended = 0, d = 0;
+    return __get_cpuid(1, &a, &b, &plain, &d) && (plain & bit_MOVBE) && __get_cpuid(0x80000001, &a, &b, &extended, &d) && (extended & bit_LZCNT);
+}
 /// AVX2 and all else that a Skylake client has of instructions which compilers use by themselves.
 bool hasAvx2() {
     return (overriddenCaps().empty() || overriddenCaps() == "avx") && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("lzcnt") && __builtin_cpu_supports("movbe");
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && hasLzcntAndMovbe();
 }
 #else
 bool hasAvx512() { return false; }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reads graph files: applies a variant and the command line's overrides to the JSON, then checks its form.
+#include <framework/core/is_file.h>
 #include <framework/graph/description.h>
 
 #include <fmt/format.h>
@@ -167,9 +168,9 @@ private:
 
     void readScene(const Json& scene) {
         d.sceneWhere = scene.where();
-        const Path path = scene.asString("\"scene\"");
-        if (path.empty()) throw Error(scene.where(), "\"scene\" is empty", "name a scene file or leave \"scene\" out");
-        d.scene = path.is_absolute() ? path : (d.file.parent_path() / path).lexically_normal();
+        const std::string name = scene.asString("\"scene\"");
+        if (name.empty()) throw Error(scene.where(), "\"scene\" is empty", "name a scene file or leave \"scene\" out");
+        d.scene = Path(name).is_absolute() ? Path(name) : namedPath(d.file.parent_path(), name).lexically_normal();
     }
 
     static std::int64_t readWithin(const Json& value, std::string_view what, std::int64_t low, std::int64_t high) {

@@ -22,6 +22,7 @@ ImageData decodeTexels(std::span<const std::byte> bytes, Format format, glm::uve
     image.width = int(extent.x);
     image.height = int(extent.y);
     image.channels = int(facts.channels);
+    image.hasOpacity = image.channels == 4;  // or what else a pass keeps beside three values: no light
     image.values.resize(std::size_t(extent.x) * extent.y * facts.channels);
     for (std::size_t i = 0; i < image.values.size(); ++i) switch (format) {
             case Format::r32f:

@@ -31,11 +31,11 @@ int readChoice(const Parameter& p, const Json& value, const std::string& what) {
 
 /// Relative to the folder of the file that names it, or to `folder` where no file does.
 std::string readFile(const Json& value, const std::string& what, const Path& folder) {
-    const Path named = value.asString(what);
+    const std::string named = value.asString(what);
     if (named.empty()) return {};
     const Path by = value.where().file;
     const Path base = isFile(by) ? by.parent_path() : folder;
-    const Path whole = std::filesystem::absolute(base / named).lexically_normal();
+    const Path whole = std::filesystem::absolute(namedPath(base, named)).lexically_normal();
     if (!isFile(whole)) throw Error(value.where(), fmt::format("{}: there is no file {}", what, whole.string()));
     return whole.string();
 }

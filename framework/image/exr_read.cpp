@@ -4,6 +4,8 @@
 #include <framework/core/files.h>
 #include <framework/core/log.h>
 #include <framework/image/exr.h>
+#include <framework/image/exr_attributes.h>
+#include <framework/image/exr_layers.h>
 #include <framework/image/exr_stream.h>
 
 #include <ImfChannelList.h>
@@ -16,6 +18,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <new>
@@ -29,29 +32,14 @@ long long widthOf(const Box2i& box) { return static_cast<long long>(box.max.x) -
 long long heightOf(const Box2i& box) { return static_cast<long long>(box.max.y) - box.min.y + 1; }
 
 /// Damaged files have damaged names, which messages repeat: no control character of theirs should reach a terminal.
-[[noreturn]] void refuse(const Path& path, std::string what, std::string hint = {}) {
+std::string printable(std::string text) {
     std::ranges::replace_if(
-        what, [](char c) { return c < ' ' || c > '~'; }, '?');
-    throw Error(Where{path.string()}, std::move(what), std::move(hint));
+        text, [](char c) { return c < ' ' || c > '~'; }, '?');
+    return text;
 }
 
-bool isLuminanceChroma(const Imf::ChannelList& channels) {
-    return channels.findChannel("Y") && channels.findChannel("RY") && channels.findChannel("BY");
-}
-
-std::vector<std::string> chooseChannels(const Imf::ChannelList& channels) {
-    std::vector<std::string> names;
-    const auto addIfThere = [&](const char* name) {
-        if (channels.findChannel(name)) names.emplace_back(name);
-    };
-    for (const char* name : {"R", "G", "B"}) addIfThere(name);
-    if (names.empty()) {
-        for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
-            if (std::string(channel.name()) != "A") names.emplace_back(channel.name());
-        }
-    }
-    addIfThere("A");
-    return names;
+[[noreturn]] void refuse(const Path& path, std::string what, std::string hint = {}) {
+    throw Error(Where{path.string()}, printable(std::move(what)), std::move(hint));
 }
 
 /// OpenEXR holds as many lines as it compresses together, up to 256, or a row of tiles, of all channels, wanted or not.
@@ -111,8 +99,9 @@ char* origin(void* first, const Box2i& window, std::size_t pixelStride, std::siz
 }
 
 /// The data window, all chosen channels as floats.
-ImageData readData(const Path& path, std::size_t bytes, Imf::MultiPartInputFile& file, const std::vector<std::string>& names) {
-    Imf::InputPart part(file, 0);
+ImageData readData(const Path& path, std::size_t bytes, Imf::MultiPartInputFile& file, const ExrLayer& layer) {
+    const std::vector<std::string>& names = layer.channels;
+    Imf::InputPart part(file, static_cast<int>(layer.part));
     const Imf::Header& header = part.header();
     const Box2i window = header.dataWindow();
     for (const std::string& name : names) {
@@ -122,7 +111,8 @@ ImageData readData(const Path& path, std::size_t bytes, Imf::MultiPartInputFile&
         }
     }
     if (!part.isComplete()) refuse(path, "is incomplete: some of its pixels were never written");
-    ImageData data{static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), static_cast<int>(names.size()), {}};
+    ImageData data{
+        static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), static_cast<int>(names.size()), {}, layer.hasOpacity};
     const std::size_t pixelStride = names.size() * sizeof(float), lineStride = pixelStride * static_cast<std::size_t>(data.width);
     const auto readInto = [&](std::vector<float>& values, std::size_t stride) {
         Imf::FrameBuffer target;
@@ -142,12 +132,12 @@ ImageData readData(const Path& path, std::size_t bytes, Imf::MultiPartInputFile&
 }
 
 /// Luminance and subsampled chroma, made R, G, B by OpenEXR.
-ImageData readLuminanceChroma(std::span<const std::byte> bytes, const Path& path, bool hasAlpha) {
+ImageData readLuminanceChroma(std::span<const std::byte> bytes, const Path& path, const ExrLayer& layer) {
     ExrInput stream(bytes, path.filename().string());
-    Imf::RgbaInputFile file(stream);
+    Imf::RgbaInputFile file(stream, layer.prefix);
     const Box2i window = file.dataWindow();
     if (!file.isComplete()) refuse(path, "is incomplete: some of its pixels were never written");
-    ImageData data{static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), hasAlpha ? 4 : 3, {}};
+    ImageData data{static_cast<int>(widthOf(window)), static_cast<int>(heightOf(window)), layer.hasOpacity ? 4 : 3, {}, layer.hasOpacity};
     std::vector<Imf::Rgba> pixels;
     const auto readInto = [&](std::size_t lines, std::size_t stride) {
         pixels.resize(lines * static_cast<std::size_t>(data.width));
@@ -161,7 +151,7 @@ ImageData readLuminanceChroma(std::span<const std::byte> bytes, const Path& path
     float* value = data.values.data();
     for (const Imf::Rgba& pixel : pixels) {
         for (const half channel : {pixel.r, pixel.g, pixel.b}) *value++ = channel;
-        if (hasAlpha) *value++ = pixel.a;
+        if (layer.hasOpacity) *value++ = pixel.a;
     }
     return data;
 }
@@ -170,6 +160,7 @@ ImageData readLuminanceChroma(std::span<const std::byte> bytes, const Path& path
 ImageData frame(ImageData data, const Box2i& dataWindow, const Box2i& displayWindow) {
     if (dataWindow == displayWindow) return data;
     ImageData image = makeImage(static_cast<int>(widthOf(displayWindow)), static_cast<int>(heightOf(displayWindow)), data.channels);
+    image.hasOpacity = data.hasOpacity;
     const Box2i both(Imath::V2i(std::max(dataWindow.min.x, displayWindow.min.x), std::max(dataWindow.min.y, displayWindow.min.y)),
                      Imath::V2i(std::min(dataWindow.max.x, displayWindow.max.x), std::min(dataWindow.max.y, displayWindow.max.y)));
     if (both.isEmpty()) return image;
@@ -180,40 +171,65 @@ ImageData frame(ImageData data, const Box2i& dataWindow, const Box2i& displayWin
     return image;
 }
 
-ExrFile decode(std::span<const std::byte> bytes, const Path& path) {
+std::vector<ExrPart> partsOf(const Imf::MultiPartInputFile& file) {
+    std::vector<ExrPart> parts(static_cast<std::size_t>(file.parts()));
+    for (int i = 0; i < file.parts(); ++i) {
+        const Imf::Header& header = file.header(i);
+        if (header.hasType() && Imf::isDeepData(header.type())) continue;
+        ExrPart& part = parts[static_cast<std::size_t>(i)];
+        if (header.hasName()) part.name = header.name();
+        for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+            part.channels.emplace_back(channel.name());
+    }
+    return parts;
+}
+
+/// The first few of a file's names, fit for a terminal.
+std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 8;
+    const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(most, names.size()));
+    return printable(fmt::format("{}{}", fmt::join(names.begin(), end, ", "), names.size() > most ? ", ..." : ""));
+}
+
+/// Nobody should find out from the colours which channels were taken.
+void tellChoice(const Path& path, const ExrLayer& layer) {
+    const std::size_t colors = layer.channels.size() - (layer.hasOpacity ? 1 : 0);
+    if (layer.content == ExrContent::unknown && colors > 1)
+        log::warn("{}: none of its channels is known as colour; they are taken in the order {}", path.string(), listed(layer.channels));
+    if (layer.others.empty()) return;
+    log::note("{}: takes {} of {} layers; the others: {}", path.string(),
+              layer.name.empty() ? "the unnamed one" : printable("\"" + layer.name + "\""), layer.others.size() + 1, listed(layer.others));
+}
+
+/// Opens a file and reads what `choose` makes of its parts.
+template <class Choose> ExrFile decode(std::span<const std::byte> bytes, const Path& path, const Choose& choose) {
     ExrInput stream(bytes, path.filename().string());
     Imf::MultiPartInputFile file(stream, 0, /* reconstructChunkOffsetTable = */ false);
-    const Imf::Header& header = file.header(0);
+    const ExrLayer layer = choose(partsOf(file));
+    const Imf::Header& header = file.header(static_cast<int>(layer.part));
+    checkHeader(path, header, layer.channels.size());
 
     ExrFile result;
-    result.channels = chooseChannels(header.channels());
-    checkHeader(path, header, result.channels.size());
+    result.channels = layer.channels;
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
         const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
         if (text && std::string(attribute.name()) != "type") {  // OpenEXR adds the layout of the file under this name
             result.attributes[attribute.name()] = text->value();
         }
     }
-    if (isLuminanceChroma(header.channels())) {
-        const bool hasAlpha = header.channels().findChannel("A") != nullptr;
-        result.channels = {"R", "G", "B"};
-        if (hasAlpha) result.channels.emplace_back("A");
-        result.image = readLuminanceChroma(bytes, path, hasAlpha);
-    } else {
-        result.image = readData(path, bytes.size(), file, result.channels);
-    }
+    result.image =
+        layer.content == ExrContent::luminanceChroma ? readLuminanceChroma(bytes, path, layer) : readData(path, bytes.size(), file, layer);
     result.image = frame(std::move(result.image), header.dataWindow(), header.displayWindow());
     return result;
 }
 
-}  // namespace
-
-ExrFile readExrFile(const Path& path) {
+template <class Choose> ExrFile readFile(const Path& path, const Choose& choose) {
     const std::vector<std::byte> bytes = readBytes(path);
     constexpr std::byte magic[] = {std::byte{0x76}, std::byte{0x2f}, std::byte{0x31}, std::byte{0x01}};
     if (bytes.size() < 4 || !std::equal(magic, magic + 4, bytes.begin())) refuse(path, "is not an OpenEXR file");
+    if (const auto flaw = attributeFlaw(bytes)) refuse(path, "is damaged or cut: " + *flaw);
     try {
-        return decode(bytes, path);
+        return decode(bytes, path, choose);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
@@ -221,6 +237,25 @@ ExrFile readExrFile(const Path& path) {
     } catch (const std::exception& error) {
         refuse(path, std::string("is damaged or cut: ") + error.what());
     }
+}
+
+}  // namespace
+
+ExrFile readExrFile(const Path& path) {
+    ExrLayer layer;
+    ExrFile file = readFile(path, [&](const std::vector<ExrPart>& parts) { return layer = chooseLayer(parts); });
+    tellChoice(path, layer);
+    return file;
+}
+
+ExrFile readExrChannels(const Path& path, const std::vector<std::string>& names) {
+    return readFile(path, [&](const std::vector<ExrPart>& parts) {
+        ExrLayer layer;
+        layer.channels = names;
+        for (const std::string& name : names)
+            if (std::ranges::find(parts[0].channels, name) == parts[0].channels.end()) refuse(path, "has no channel \"" + name + "\"");
+        return layer;
+    });
 }
 
 ImageData readExr(const Path& path) { return readExrFile(path).image; }

@@ -18,13 +18,13 @@
 namespace lodestir {
 namespace {
 
-std::vector<std::string> defaultNames(int channels) {
-    switch (channels) {
+std::vector<std::string> defaultNames(const ImageData& image) {
+    switch (image.channels) {
     case 1: return {"Y"};
-    case 2: return {"R", "G"};
+    case 2: return {image.hasOpacity ? "Y" : "R", image.hasOpacity ? "A" : "G"};
     case 3: return {"R", "G", "B"};
     case 4: return {"R", "G", "B", "A"};
-    default: throw Error("an image of " + std::to_string(channels) + " channels needs a name for each to be written as OpenEXR");
+    default: throw Error("an image of " + std::to_string(image.channels) + " channels needs a name for each to be written as OpenEXR");
     }
 }
 
@@ -64,7 +64,7 @@ std::string encode(const std::string& name, const ImageData& image, const std::v
 }  // namespace
 
 void writeExr(const Path& path, const ImageData& image, const ExrOptions& options) {
-    const std::vector<std::string> names = options.channels.empty() ? defaultNames(image.channels) : options.channels;
+    const std::vector<std::string> names = options.channels.empty() ? defaultNames(image) : options.channels;
     if (names.size() != static_cast<std::size_t>(image.channels)) {
         throw Error(Where{path.string()},
                     "cannot be written: " + std::to_string(image.channels) + " channels have " + std::to_string(names.size()) + " names");

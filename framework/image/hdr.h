@@ -5,7 +5,9 @@
 
 namespace lodestir {
 
-/// Reads RGB pixels with a shared exponent (Ward 1991, Real Pixels, Graphics Gems II), flat or run-length encoded; EXPOSURE is not undone.
+/// Reads RGB pixels with a shared exponent (Ward 1991, Real Pixels, Graphics Gems II), flat or run-length encoded, in any of the eight
+/// orientations. Values are radiance: what EXPOSURE and COLORCORR lines say the pixels were multiplied by is undone. Pixels that aren't square
+/// and other primaries are told and not undone.
 /// Throws Error naming the file when it cannot be read, is no such file, is damaged or cut, or claims an absurd size.
 LODESTIR_API ImageData readHdr(const std::filesystem::path& path);
 

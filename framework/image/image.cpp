@@ -25,6 +25,8 @@ ImageData firstChannels(const ImageData& image, int count) {
     return result;
 }
 
+ImageData withoutOpacity(const ImageData& image) { return image.hasOpacity ? firstChannels(image, image.channels - 1) : image; }
+
 void checkImageSize(const std::filesystem::path& path, long long width, long long height, long long channels) {
     constexpr long long sideLimit = 65536, pixelLimit = 1ll << 27, channelLimit = 64, valueLimit = 1ll << 30;
     const bool sane = width > 0 && width <= sideLimit && height > 0 && height <= sideLimit && width * height <= pixelLimit &&

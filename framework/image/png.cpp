@@ -2,6 +2,7 @@
 // Reads and writes PNG files by means of stb, which trusts what it reads: chunks and their checksums are looked at here first.
 #include <framework/core/error.h>
 #include <framework/core/files.h>
+#include <framework/core/log.h>
 #include <framework/image/png.h>
 #include <framework/image/srgb.h>
 
@@ -58,6 +59,21 @@ std::optional<std::string> flaw(std::string_view bytes) {
     }
 }
 
+/// What a gAMA chunk says (PNG specification, 11.3.2.2: the exponent of encoding, times 100000) where that isn't sRGB's curve and no better
+/// chunk overrules it; else 0.
+std::uint32_t foreignGamma(std::string_view bytes) {
+    constexpr std::uint32_t least = 43000, most = 48000;  // about 1 / 2.2, by which sRGB is told to old readers
+    std::uint32_t gamma = 0;
+    for (bytes.remove_prefix(signature.size()); bytes.substr(4, 4) != "IDAT" && bytes.substr(4, 4) != "IEND";) {
+        const std::uint32_t length = bigEndian(bytes);
+        const std::string_view type = bytes.substr(4, 4);
+        if (type == "sRGB" || type == "iCCP" || type == "cICP") return 0;
+        if (type == "gAMA" && length == 4) gamma = bigEndian(bytes.substr(8));
+        bytes.remove_prefix(12 + length);
+    }
+    return gamma >= least && gamma <= most ? 0 : gamma;
+}
+
 template <class T> using Pixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
 
 }  // namespace
@@ -80,12 +96,15 @@ ImageData readPng(const Path& path) {
     if (const auto found = flaw(content)) refuse("is damaged or cut: " + *found);
     checkImageSize(path, bigEndian(std::string_view(content).substr(16)), bigEndian(std::string_view(content).substr(20)), 4);
 
+    if (const std::uint32_t gamma = foreignGamma(content); gamma != 0)
+        log::warn("{}: says that its values are encoded with the exponent {}; they are taken as sRGB", path.string(), gamma / 1e5);
     const auto* bytes = reinterpret_cast<const stbi_uc*>(content.data());
     const int size = static_cast<int>(content.size());
     ImageData image;
     const auto fill = [&](const auto* encoded, float top) {
         if (!encoded) refuse(std::string("is damaged or cut: ") + stbi_failure_reason());
-        const int opacity = image.channels % 2 == 0 ? image.channels - 1 : -1;
+        image.hasOpacity = image.channels % 2 == 0;
+        const int opacity = image.hasOpacity ? image.channels - 1 : -1;
         image.values.resize(image.pixelCount() * static_cast<std::size_t>(image.channels));
         for (std::size_t i = 0; i < image.values.size(); ++i) {
             const float value = static_cast<float>(encoded[i]) / top;

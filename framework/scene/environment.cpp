@@ -44,16 +44,17 @@ glm::vec3 environmentIrradiance(const Environment& environment, glm::vec3 normal
 }
 
 Environment loadEnvironmentMap(const Path& path, std::vector<std::string>& notes) {
-    const ImageData image = readImage(path);
-    if (image.channels < 3)
+    const ImageData image = withoutOpacity(readImage(path));
+    if (image.channels != 3 && image.channels != 1)
         throw Error(Where{path.string()},
-                    fmt::format("an environment map needs red, green and blue, this image has {} channels", image.channels));
+                    fmt::format("an environment map needs red, green and blue, or grey; this image has {} channels", image.channels));
     Environment environment{.type = EnvironmentType::map, .width = image.width, .height = image.height};
     const std::size_t count = std::size_t(image.width) * std::size_t(image.height), channels = std::size_t(image.channels);
     environment.radiance.resize(count);
     std::size_t bad = 0;
     for (std::size_t i = 0; i < count; ++i) {
-        glm::vec3 radiance(image.values[i * channels], image.values[i * channels + 1], image.values[i * channels + 2]);
+        const float* texel = image.values.data() + i * channels;
+        const glm::vec3 radiance = channels == 3 ? glm::vec3(texel[0], texel[1], texel[2]) : glm::vec3(texel[0]);
         const bool good = std::isfinite(radiance.r + radiance.g + radiance.b) && std::min({radiance.r, radiance.g, radiance.b}) >= 0;
         if (!good) ++bad;
         environment.radiance[i] = good ? radiance : glm::vec3(0);

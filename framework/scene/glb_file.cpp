@@ -24,7 +24,7 @@ std::string mediaType(std::span<const std::byte> bytes, const std::string& uri) 
     if (start.starts_with("RIFF") && start.substr(std::min<std::size_t>(8, start.size())).starts_with("WEBP")) return "image/webp";
     if (start.starts_with("\xabKTX 20")) return "image/ktx2";
     if (start.starts_with("DDS ")) return "image/vnd-ms.dds";
-    if (uri.starts_with("data:image/")) return uri.substr(5, uri.find_first_of(";,") - 5);
+    if (isDataUri(uri) && uri.find("image/") == 5) return uri.substr(5, uri.find_first_of(";,") - 5);
     return "image/" + Path(uri).extension().string().erase(0, 1);
 }
 
@@ -81,9 +81,10 @@ void GlbFile::embedImages(const GltfFile& source) {
         try {
             bytes = readUri(uri, source.path.parent_path());
         } catch (const Error& error) {
-            throw source.error(fmt::format("/images/{}/uri", i), error);
+            notes.push_back(fmt::format("image {} stays a name: {}", i, error.problems().front().what));
+            continue;
         }
-        if (!image.contains("name") && !uri.starts_with("data:")) image["name"] = Path(percentDecode(uri)).stem().string();
+        if (!image.contains("name") && !isDataUri(uri)) image["name"] = Path(percentDecode(uri)).stem().string();
         image.erase("uri");
         image["mimeType"] = mediaType(bytes, uri);
         image["bufferView"] = addView(bytes);

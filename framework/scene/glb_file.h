@@ -12,10 +12,11 @@ namespace lodestir {
 /// The JSON may be changed freely; the bytes only grow.
 class LODESTIR_API GlbFile {
 public:
-    /// Takes over all of a file. Error when an image it names cannot be read, or a buffer view needs a decoder.
+    /// Takes over all of a file; an image that cannot be read stays a name, with a note. Error when a buffer view needs a decoder.
     explicit GlbFile(const GltfFile& source);
 
     nlohmann::ordered_json json;
+    std::vector<std::string> notes;
 
     /// Appends triangle indices as an accessor and returns its number; 16 bits where `vertices` allows them.
     std::size_t addIndices(std::span<const std::uint32_t> indices, std::size_t vertices);

@@ -55,8 +55,7 @@ std::vector<std::string> variantNames(const GltfFile& file) {
 
 std::vector<std::string> animationNames(const GltfFile& file) {
     std::vector<std::string> names;
-    for (const tinygltf::Animation& animation : file.model.animations)
-        names.push_back(animation.name.empty() ? fmt::format("animation {}", names.size()) : animation.name);
+    for (std::size_t i = 0; i < file.model.animations.size(); ++i) names.push_back(gltfAnimationName(file, i));
     return names;
 }
 
@@ -66,6 +65,7 @@ void loadGltf(const Path& path, Scene& scene, std::uint32_t parentNode, const Gl
     const GltfFile file = readGltfFile(path);
     Problems problems;
     GltfImport import{file, scene, problems};
+    for (const std::string& note : file.notes) import.note(note);
     noteIgnoredExtensions(import);
     import.variant = choose(import, choices.variant, variantNames(file), "material variant");
     import.animation = choose(import, choices.animation, animationNames(file), "animation");

@@ -26,7 +26,9 @@ inline constexpr std::size_t maxNodes = std::size_t(1) << 22;
 /// KHR_materials_variants, KHR_texture_transform, KHR_mesh_quantization, EXT_meshopt_compression, KHR_meshopt_compression,
 /// EXT_mesh_gpu_instancing, MSFT_lod (nodes);
 /// approximated with a note: KHR_materials_pbrSpecularGlossiness.
-/// Error with every problem found, each at its JSON pointer; the scene is not to be used then.
+/// What a model can be shown without (a skin, an animation, a texture, a light or a camera that is broken or isn't there) is left out with a
+/// note; what is wrong with its hierarchy, its geometry or its bytes is an Error with every problem found, each at its JSON pointer, and the
+/// scene is not to be used then.
 LODESTIR_API void loadGltf(const Path& path, Scene& scene, std::uint32_t parentNode, const GltfChoices& choices = {});
 
 }  // namespace lodestir

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
+#include <utility>
 
 namespace lodestir {
 namespace {
@@ -36,10 +39,10 @@ std::vector<AnimationChannel> readKeys(const GltfFile& file, const tinygltf::Ani
     channel.times = input.floats();
     if (channel.times.empty()) throw file.error(pointer + "/input", "an animation needs at least one key");
     for (std::size_t i = 0; i < channel.times.size(); ++i) {
-        if (!std::isfinite(channel.times[i]) || channel.times[i] < 0)
-            throw file.error(pointer + "/input", fmt::format("time {} of key {} is not allowed", channel.times[i], i));
-        if (i > 0 && channel.times[i] <= channel.times[i - 1])
-            throw file.error(pointer + "/input", fmt::format("times must rise, key {} does not", i));
+        if (!std::isfinite(channel.times[i])) throw file.error(pointer + "/input", fmt::format("the time of key {} is not finite", i));
+        // Times below zero are played from zero on; equal ones are a jump.
+        if (i > 0 && channel.times[i] < channel.times[i - 1])
+            throw file.error(pointer + "/input", fmt::format("times must not fall, key {} does", i));
     }
     const int components = targets > 0 ? 1 : channel.value == AnimatedValue::rotation ? 4 : 3;
     const std::size_t channels = std::max<std::size_t>(targets, 1);
@@ -69,60 +72,72 @@ std::size_t targetsOf(const tinygltf::Model& model, int node) {
     return model.meshes[mesh].primitives[0].targets.size();
 }
 
+using Moved = std::set<std::pair<std::uint32_t, AnimatedValue>>;
+
+/// The channels of animation `a`; Error where its keys cannot be played. A channel that moves nothing here is left out alone.
+std::vector<AnimationChannel> readAnimation(GltfImport& import, std::size_t a, Moved& moved) {
+    const Scene& scene = import.scene;
+    const tinygltf::Animation& animation = import.file.model.animations[a];
+    std::vector<AnimationChannel> result;
+    for (std::size_t c = 0; c < animation.channels.size(); ++c) {
+        const tinygltf::AnimationChannel& source = animation.channels[c];
+        const std::optional<AnimatedValue> value = animatedValue(source.target_path);
+        if (!value) {
+            import.note(fmt::format("animation of \"{}\" is ignored", source.target_path));
+            continue;
+        }
+        if (source.target_node < 0) continue;
+        const auto target = static_cast<std::size_t>(source.target_node), sampler = static_cast<std::size_t>(source.sampler);
+        if (target >= import.nodes.size() || sampler >= animation.samplers.size()) {
+            import.note(fmt::format("/animations/{}/channels/{} names a node or a sampler that is not there; it is ignored", a, c));
+            continue;
+        }
+        const std::uint32_t node = import.nodes[target];
+        if (node == none) continue;
+        const std::size_t targets = value == AnimatedValue::weight ? targetsOf(import.file.model, source.target_node) : 0;
+        if (value == AnimatedValue::weight && targets == 0) {
+            import.note(
+                fmt::format("node \"{}\" has no morph targets, so the animation of their weights is ignored", scene.nodes[node].name));
+            continue;
+        }
+        if (scene.nodes[node].matrix && value != AnimatedValue::weight) {
+            import.note(fmt::format("node \"{}\" has a matrix, so its animation is ignored", scene.nodes[node].name));
+            continue;
+        }
+        if (!moved.insert({node, *value}).second) {
+            import.note("animations play together; where two move the same node, the first one counts (a scene file can choose one)");
+            continue;
+        }
+        std::vector<AnimationChannel> channels =
+            readKeys(import.file, animation.samplers[sampler], fmt::format("/animations/{}/samplers/{}", a, source.sampler),
+                     {.node = node, .value = *value}, targets);
+        if (channels.empty()) import.note("animations without data are ignored");
+        std::ranges::move(channels, std::back_inserter(result));
+    }
+    return result;
+}
+
 }  // namespace
+
+std::string gltfAnimationName(const GltfFile& file, std::size_t animation) {
+    const std::string& name = file.model.animations[animation].name;
+    return name.empty() ? fmt::format("animation {}", animation) : name;
+}
 
 void loadGltfAnimations(GltfImport& import) {
     Scene& scene = import.scene;
-    const auto& animations = import.file.model.animations;
-    std::set<std::pair<std::uint32_t, AnimatedValue>> moved;
-    for (std::size_t a = 0; a < animations.size(); ++a) {
+    Moved moved;
+    for (std::size_t a = 0; a < import.file.model.animations.size(); ++a) {
         if (import.animation >= 0 && a != static_cast<std::size_t>(import.animation)) continue;
-        for (std::size_t c = 0; c < animations[a].channels.size(); ++c) {
-            const tinygltf::AnimationChannel& source = animations[a].channels[c];
-            const std::optional<AnimatedValue> value = animatedValue(source.target_path);
-            if (!value) {
-                import.note(fmt::format("animation of \"{}\" is ignored", source.target_path));
-                continue;
+        Moved movedToo = moved;
+        try {
+            for (AnimationChannel& channel : readAnimation(import, a, movedToo)) {
+                scene.animationLength = std::max(scene.animationLength, channel.times.back());
+                scene.animation.push_back(std::move(channel));
             }
-            const std::string pointer = fmt::format("/animations/{}/channels/{}", a, c);
-            if (source.target_node < 0) continue;
-            if (static_cast<std::size_t>(source.target_node) >= import.nodes.size()) {
-                import.problem(pointer + "/target/node",
-                               fmt::format("there is no node {}, the file has {}", source.target_node, import.nodes.size()));
-                continue;
-            }
-            if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= animations[a].samplers.size()) {
-                import.problem(pointer + "/sampler",
-                               fmt::format("there is no sampler {}, the animation has {}", source.sampler, animations[a].samplers.size()));
-                continue;
-            }
-            const std::uint32_t node = import.nodes[static_cast<std::size_t>(source.target_node)];
-            if (node == none) continue;
-            const std::size_t targets = value == AnimatedValue::weight ? targetsOf(import.file.model, source.target_node) : 0;
-            if (value == AnimatedValue::weight && targets == 0) {
-                import.note(fmt::format("node \"{}\" has no morph targets, so the animation of their weights is ignored", scene.nodes[node].name));
-                continue;
-            }
-            if (scene.nodes[node].matrix && value != AnimatedValue::weight) {
-                import.note(fmt::format("node \"{}\" has a matrix, so its animation is ignored", scene.nodes[node].name));
-                continue;
-            }
-            if (!moved.insert({node, *value}).second) {
-                import.note("animations play together; where two move the same node, the first one counts (a scene file can choose one)");
-                continue;
-            }
-            try {
-                std::vector<AnimationChannel> channels =
-                    readKeys(import.file, animations[a].samplers[static_cast<std::size_t>(source.sampler)],
-                             fmt::format("/animations/{}/samplers/{}", a, source.sampler), {.node = node, .value = *value}, targets);
-                if (channels.empty()) import.note("animations without data are ignored");
-                for (AnimationChannel& channel : channels) {
-                    scene.animationLength = std::max(scene.animationLength, channel.times.back());
-                    scene.animation.push_back(std::move(channel));
-                }
-            } catch (const Error& error) {
-                import.problems.add(error);
-            }
+            moved = std::move(movedToo);
+        } catch (const Error& error) {  // half a movement would be none that anybody made
+            import.noteLeftOut(fmt::format("animation \"{}\"", gltfAnimationName(import.file, a)), error);
         }
     }
 }

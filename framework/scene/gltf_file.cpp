@@ -2,18 +2,16 @@
 // Containers of glTF 2.0 (JSON text, GLB), checked before anything else is believed.
 #include <framework/scene/gltf_file.h>
 #include <framework/scene/gltf_meshopt.h>
+#include <framework/scene/gltf_structure.h>
 #include <framework/scene/uri.h>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <cstring>
-#include <set>
 
 namespace lodestir {
 namespace {
@@ -195,99 +193,6 @@ void readBuffers(GltfFile& file, const Container& container, Problems& problems)
     }
 }
 
-/// tinygltf must neither read files nor decode images: it is given none, and these make sure of it.
-void forbidFiles(tinygltf::TinyGLTF& parser) {
-    parser.SetFsCallbacks({
-        [](const std::string&, void*) { return false; },
-        [](const std::string& path, void*) { return path; },
-        [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-        [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-        nullptr,
-    });
-}
-
-/// tinygltf refuses a whole file for whole numbers written as 4.0, and for two things that are harmless until they are used: indices
-/// without data, and accessors of a type that it doesn't know. It is shown others in their place, which are taken out of the model afterwards.
-class Harmless {
-public:
-    explicit Harmless(nlohmann::ordered_json& structure) {
-        shortenNumbers(structure);
-        if (!structure.contains("accessors") || !structure["accessors"].is_array()) return;
-        const std::size_t views = structure.contains("bufferViews") ? structure["bufferViews"].size() : 0;
-        auto& accessors = structure["accessors"];
-        static const std::set<std::string> known{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-        for (std::size_t i = 0; i < accessors.size(); ++i) {
-            if (!accessors[i].is_object() || !accessors[i].contains("type") || !accessors[i]["type"].is_string()) continue;
-            if (known.contains(accessors[i]["type"].get<std::string>())) continue;
-            accessors[i]["type"] = "SCALAR";
-            unknown_.push_back(i);
-        }
-        for (const std::size_t i : indicesOf(structure, accessors.size())) {
-            if (!accessors[i].is_object() || accessors[i].contains("bufferView")) continue;
-            accessors[i]["bufferView"] = views;
-            bare_.push_back(i);
-        }
-        if (!bare_.empty()) structure["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
-    }
-
-    void takeOut(tinygltf::Model& model) const {
-        for (const std::size_t i : unknown_) model.accessors[i].type = -1;
-        for (const std::size_t i : bare_) model.accessors[i].bufferView = -1;
-        if (!bare_.empty()) model.bufferViews.pop_back();
-    }
-
-private:
-    static void shortenNumbers(nlohmann::ordered_json& value) {
-        constexpr double exact = 1ll << 53;
-        if (value.is_structured()) {
-            for (auto& child : value) shortenNumbers(child);
-        } else if (value.is_number_float()) {
-            const double number = value.get<double>();
-            if (std::abs(number) < exact && number == std::floor(number)) value = static_cast<std::int64_t>(number);
-        }
-    }
-
-    /// Accessors that primitives have as their indices.
-    static std::set<std::size_t> indicesOf(const nlohmann::ordered_json& structure, std::size_t accessorCount) {
-        std::set<std::size_t> found;
-        const auto views = structure.find("bufferViews");
-        if (!structure.contains("meshes") || (views != structure.end() && !views->is_array())) return found;
-        for (const auto& mesh : structure["meshes"]) {
-            if (!mesh.is_object() || !mesh.contains("primitives")) continue;
-            for (const auto& primitive : mesh["primitives"]) {
-                if (!primitive.is_object() || !primitive.contains("indices") || !primitive["indices"].is_number_integer()) continue;
-                const auto i = primitive["indices"].get<std::int64_t>();
-                if (i >= 0 && std::uint64_t(i) < accessorCount) found.insert(std::size_t(i));
-            }
-        }
-        return found;
-    }
-
-    std::vector<std::size_t> unknown_, bare_;
-};
-
-void parseStructure(GltfFile& file) {
-    Json source = file.json;
-    source.remove("buffers");
-    source.remove("images");
-    nlohmann::ordered_json structure = source.plain();
-    const Harmless harmless(structure);
-    const std::string text = structure.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    tinygltf::TinyGLTF parser;
-    forbidFiles(parser);
-    std::string errors, warnings;
-    bool good = false;
-    try {
-        good = parser.LoadASCIIFromString(&file.model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), {});
-    } catch (const std::exception& thrown) {
-        errors = thrown.what();
-    }
-    if (good) return harmless.takeOut(file.model);
-    std::replace(errors.begin(), errors.end(), '\n', ' ');
-    while (errors.ends_with(' ')) errors.pop_back();
-    throw Error(Where{file.path.string()}, "not valid glTF: " + (errors.empty() ? "its structure is not as the format demands" : errors));
-}
-
 }  // namespace
 
 bool isSupportedGltfExtension(std::string_view name) {
@@ -322,7 +227,7 @@ GltfFile readGltfFile(const Path& path) {
     problems.raise();  // alone: what else is wrong may come from the extension
     readBuffers(file, container, problems);
     problems.raise();
-    parseStructure(file);
+    parseGltfStructure(file);
     decodeMeshopt(file, problems);
     problems.raise();
     return file;

@@ -19,6 +19,7 @@ struct GltfFile {
     bool binary = false;    ///< a GLB: places inside its JSON mean nothing to people
     tinygltf::Model model;  ///< all but buffers and images
     std::vector<std::vector<std::byte>> buffers;
+    std::vector<std::string> notes;  ///< what of its structure was left out
 
     /// Error at the value that a JSON pointer names ("/meshes/0/primitives/1"), or at the deepest part of it that exists.
     /// The pointer is part of the text.

@@ -2,12 +2,21 @@
 // Notes, problems and the reading of extension objects.
 #include <framework/scene/gltf_import.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace lodestir {
 
 void GltfImport::note(const std::string& text) {
     if (noted.insert(text).second) scene.notes.push_back(file.path.filename().string() + ": " + text);
+}
+
+void GltfImport::noteLeftOut(const std::string& what, const Error& cause) {
+    const Problem& problem = cause.problems().front();
+    const bool isElsewhere = !problem.where.file.empty() && problem.where.file != file.path.string();
+    note(fmt::format("{} is left out: {}{}{}", what, isElsewhere ? problem.where.file + ": " : "", problem.what,
+                     problem.hint.empty() ? "" : "; " + problem.hint));
 }
 
 void GltfImport::problem(const std::string& pointer, const std::string& what, const std::string& hint) {
@@ -37,6 +46,7 @@ glm::vec3 vectorOf(const tinygltf::Value* object, const char* key, glm::vec3 oth
     for (int i = 0; i < 3; ++i) {
         if (!array.Get(i).IsNumber()) return otherwise;
         result[i] = static_cast<float>(array.Get(i).GetNumberAsDouble());
+        if (!std::isfinite(result[i])) return otherwise;
     }
     return result;
 }

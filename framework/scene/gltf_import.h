@@ -30,6 +30,8 @@ struct GltfImport {
 
     /// Adds a note "file name: text" to the scene.
     void note(const std::string& text);
+    /// The same for something that is left out, the model being shown without it, because of an error.
+    void noteLeftOut(const std::string& what, const Error& cause);
     /// Gathers an error at a JSON pointer of the file.
     void problem(const std::string& pointer, const std::string& what, const std::string& hint = {});
 };
@@ -41,7 +43,7 @@ const tinygltf::Value* findExtension(const tinygltf::ExtensionMap& extensions, c
 float numberOf(const tinygltf::Value* object, const char* key, float otherwise);
 /// The same for an integer that fits into an int.
 int integerOf(const tinygltf::Value* object, const char* key, int otherwise);
-/// The same for an array of at least three numbers.
+/// The same for an array of at least three numbers, all of them finite.
 glm::vec3 vectorOf(const tinygltf::Value* object, const char* key, glm::vec3 otherwise);
 
 }  // namespace lodestir

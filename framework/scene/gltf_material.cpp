@@ -31,17 +31,23 @@ TextureUse useOf(const tinygltf::Value* object, const char* key) {
     return use;
 }
 
+/// JSON has numbers that no float has.
+float finiteOr(double value, float otherwise) {
+    const auto result = static_cast<float>(value);
+    return std::isfinite(result) ? result : otherwise;
+}
+
 glm::vec2 pairOf(const tinygltf::Value* object, const char* key, glm::vec2 otherwise) {
     if (!object || !object->Has(key)) return otherwise;
     const tinygltf::Value& array = object->Get(key);
     if (array.ArrayLen() != 2 || !array.Get(0).IsNumber() || !array.Get(1).IsNumber()) return otherwise;
-    return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
+    return {finiteOr(array.Get(0).GetNumberAsDouble(), otherwise.x), finiteOr(array.Get(1).GetNumberAsDouble(), otherwise.y)};
 }
 
 class MaterialLoader {
 public:
     MaterialLoader(GltfImport& import, GltfTextures& textures, std::size_t index)
-        : import_(import), textures_(textures), source_(import.file.model.materials[index]), pointer_(fmt::format("/materials/{}", index)) {
+        : import_(import), textures_(textures), source_(import.file.model.materials[index]) {
         material_.name = source_.name.empty() ? fmt::format("material {}", index) : source_.name;
     }
 
@@ -56,8 +62,7 @@ public:
         else if (source_.alphaMode == "BLEND")
             material_.alphaMode = AlphaMode::blend;
         else if (source_.alphaMode != "OPAQUE")
-            import_.problem(pointer_ + "/alphaMode", fmt::format("\"{}\" is no alpha mode", source_.alphaMode),
-                            "known: OPAQUE, MASK, BLEND");
+            import_.note(fmt::format("\"{}\" is no alpha mode; material \"{}\" is opaque", source_.alphaMode, material_.name));
         material_.alphaCutoff = std::max(static_cast<float>(source_.alphaCutoff), 0.0f);
         material_.doubleSided = source_.doubleSided;
         if (findExtension(source_.extensions, "KHR_materials_unlit")) makeUnlit();
@@ -67,10 +72,10 @@ public:
     }
 
 private:
-    TextureSlot slot(const TextureUse& use, bool srgb, const std::string& place) {
+    TextureSlot slot(const TextureUse& use, bool srgb) {
         if (use.index < 0) return {};
         TextureSlot result;
-        result.texture = textures_.use(use.index, srgb, pointer_ + place);
+        result.texture = textures_.use(use.index, srgb);
         const int uvSet = integerOf(use.transform, "texCoord", use.uvSet);
         if (uvSet > 1 || uvSet < 0) import_.note("textures that read TEXCOORD_2 or later read TEXCOORD_0 instead");
         result.uvSet = uvSet == 1 ? 1 : 0;
@@ -82,20 +87,15 @@ private:
 
     void readBase() {
         const auto& pbr = source_.pbrMetallicRoughness;
-        if (pbr.baseColorFactor.size() == 4) {
-            for (int i = 0; i < 4; ++i)
-                material_.baseColor[i] = std::clamp(static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]), 0.0f, 1.0f);
-        } else {
-            import_.problem(pointer_ + "/pbrMetallicRoughness/baseColorFactor",
-                            fmt::format("a base colour has 4 numbers, this has {}", pbr.baseColorFactor.size()));
-        }
+        for (int i = 0; i < 4; ++i)
+            material_.baseColor[i] = std::clamp(static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(i)]), 0.0f, 1.0f);
         material_.metallic = std::clamp(static_cast<float>(pbr.metallicFactor), 0.0f, 1.0f);
         material_.roughness = std::clamp(static_cast<float>(pbr.roughnessFactor), 0.0f, 1.0f);
-        material_.baseColorMap = slot(useOf(pbr.baseColorTexture), true, "/pbrMetallicRoughness/baseColorTexture");
-        material_.metallicRoughnessMap = slot(useOf(pbr.metallicRoughnessTexture), false, "/pbrMetallicRoughness/metallicRoughnessTexture");
-        material_.normalMap = slot(useOf(source_.normalTexture), false, "/normalTexture");
-        material_.normalScale = static_cast<float>(source_.normalTexture.scale);
-        material_.occlusionMap = slot(useOf(source_.occlusionTexture), false, "/occlusionTexture");
+        material_.baseColorMap = slot(useOf(pbr.baseColorTexture), true);
+        material_.metallicRoughnessMap = slot(useOf(pbr.metallicRoughnessTexture), false);
+        material_.normalMap = slot(useOf(source_.normalTexture), false);
+        material_.normalScale = finiteOr(source_.normalTexture.scale, 1);
+        material_.occlusionMap = slot(useOf(source_.occlusionTexture), false);
         material_.occlusionStrength = std::clamp(static_cast<float>(source_.occlusionTexture.strength), 0.0f, 1.0f);
     }
 
@@ -116,24 +116,24 @@ private:
         material_.roughness = 1 - std::clamp(numberOf(gloss, "glossinessFactor", 1), 0.0f, 1.0f);
         if (specularMapped) material_.roughness = std::max(material_.roughness, 0.5f);  // the map lowers glossiness; its mean is not known
         material_.baseColor = glm::vec4(glm::clamp(metal ? specular : diffuse, 0.0f, 1.0f), 1.0f);
-        material_.baseColorMap =
-            slot(useOf(gloss, "diffuseTexture"), true, "/extensions/KHR_materials_pbrSpecularGlossiness/diffuseTexture");
+        material_.baseColorMap = slot(useOf(gloss, "diffuseTexture"), true);
         material_.metallicRoughnessMap = {};
     }
 
     void readEmission() {
         for (int i = 0; i < 3; ++i)
-            material_.emission[i] = std::max(static_cast<float>(source_.emissiveFactor[static_cast<std::size_t>(i)]), 0.0f);
+            material_.emission[i] = std::max(finiteOr(source_.emissiveFactor[static_cast<std::size_t>(i)], 0), 0.0f);
         material_.emission *=
             std::max(numberOf(findExtension(source_.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1), 0.0f);
-        material_.emissiveMap = slot(useOf(source_.emissiveTexture), true, "/emissiveTexture");
+        material_.emissiveMap = slot(useOf(source_.emissiveTexture), true);
+        if (source_.emissiveTexture.index >= 0 && material_.emissiveMap.texture == none)
+            material_.emission = glm::vec3(0);  // the map said where; all of it would be wrong
     }
 
     void readVolume() {
         const tinygltf::Value* transmission = findExtension(source_.extensions, "KHR_materials_transmission");
         material_.transmission = std::clamp(numberOf(transmission, "transmissionFactor", 0), 0.0f, 1.0f);
-        material_.transmissionMap =
-            slot(useOf(transmission, "transmissionTexture"), false, "/extensions/KHR_materials_transmission/transmissionTexture");
+        material_.transmissionMap = slot(useOf(transmission, "transmissionTexture"), false);
         const float ior = numberOf(findExtension(source_.extensions, "KHR_materials_ior"), "ior", 1.5f);
         if (ior >= 1)
             material_.ior = ior;
@@ -146,11 +146,6 @@ private:
         material_.attenuationDistance = std::max(numberOf(volume, "attenuationDistance", 0), 0.0f);
     }
 
-    /// The texture `key` of the material's extension `name`, whose object may be nullptr.
-    TextureSlot layerSlot(const tinygltf::Value* object, const char* name, const char* key, bool srgb) {
-        return slot(useOf(object, key), srgb, fmt::format("/extensions/{}/{}", name, key));
-    }
-
     /// KHR_materials_specular, _sheen, _anisotropy, _clearcoat; a material where none of them does anything stays plain.
     void readLayers() {
         const auto share = [](const tinygltf::Value* object, const char* key, float otherwise) {
@@ -158,35 +153,33 @@ private:
         };
         MaterialLayers layers;
         bool any = false;
-        constexpr const char *specularName = "KHR_materials_specular", *sheenName = "KHR_materials_sheen",
-                             *anisotropyName = "KHR_materials_anisotropy", *coatName = "KHR_materials_clearcoat";
-        if (const tinygltf::Value* specular = findExtension(source_.extensions, specularName)) {
+        if (const tinygltf::Value* specular = findExtension(source_.extensions, "KHR_materials_specular")) {
             layers.specular = share(specular, "specularFactor", 1);
             layers.specularColor = glm::max(vectorOf(specular, "specularColorFactor", glm::vec3(1)), 0.0f);
-            layers.specularMap = layerSlot(specular, specularName, "specularTexture", false);
-            layers.specularColorMap = layerSlot(specular, specularName, "specularColorTexture", true);
+            layers.specularMap = slot(useOf(specular, "specularTexture"), false);
+            layers.specularColorMap = slot(useOf(specular, "specularColorTexture"), true);
             any = any || layers.specular < 1 || layers.specularColor != glm::vec3(1) || layers.specularMap.texture != none ||
                   layers.specularColorMap.texture != none;
         }
-        if (const tinygltf::Value* sheen = findExtension(source_.extensions, sheenName)) {
+        if (const tinygltf::Value* sheen = findExtension(source_.extensions, "KHR_materials_sheen")) {
             layers.sheenColor = glm::clamp(vectorOf(sheen, "sheenColorFactor", glm::vec3(0)), 0.0f, 1.0f);
             layers.sheenRoughness = share(sheen, "sheenRoughnessFactor", 0);
-            layers.sheenColorMap = layerSlot(sheen, sheenName, "sheenColorTexture", true);
-            layers.sheenRoughnessMap = layerSlot(sheen, sheenName, "sheenRoughnessTexture", false);
+            layers.sheenColorMap = slot(useOf(sheen, "sheenColorTexture"), true);
+            layers.sheenRoughnessMap = slot(useOf(sheen, "sheenRoughnessTexture"), false);
             any = any || layers.sheenColor != glm::vec3(0);
         }
-        if (const tinygltf::Value* anisotropy = findExtension(source_.extensions, anisotropyName)) {
+        if (const tinygltf::Value* anisotropy = findExtension(source_.extensions, "KHR_materials_anisotropy")) {
             layers.anisotropy = share(anisotropy, "anisotropyStrength", 0);
             layers.anisotropyRotation = numberOf(anisotropy, "anisotropyRotation", 0);
-            layers.anisotropyMap = layerSlot(anisotropy, anisotropyName, "anisotropyTexture", false);
+            layers.anisotropyMap = slot(useOf(anisotropy, "anisotropyTexture"), false);
             any = any || layers.anisotropy > 0;
         }
-        if (const tinygltf::Value* coat = findExtension(source_.extensions, coatName)) {
+        if (const tinygltf::Value* coat = findExtension(source_.extensions, "KHR_materials_clearcoat")) {
             layers.coat = share(coat, "clearcoatFactor", 0);
             layers.coatRoughness = share(coat, "clearcoatRoughnessFactor", 0);
-            layers.coatMap = layerSlot(coat, coatName, "clearcoatTexture", false);
-            layers.coatRoughnessMap = layerSlot(coat, coatName, "clearcoatRoughnessTexture", false);
-            layers.coatNormalMap = layerSlot(coat, coatName, "clearcoatNormalTexture", false);
+            layers.coatMap = slot(useOf(coat, "clearcoatTexture"), false);
+            layers.coatRoughnessMap = slot(useOf(coat, "clearcoatRoughnessTexture"), false);
+            layers.coatNormalMap = slot(useOf(coat, "clearcoatNormalTexture"), false);
             if (layers.coatNormalMap.texture != none) layers.coatNormalScale = numberOf(&coat->Get("clearcoatNormalTexture"), "scale", 1);
             any = any || layers.coat > 0;
         }
@@ -210,7 +203,6 @@ private:
     GltfImport& import_;
     GltfTextures& textures_;
     const tinygltf::Material& source_;
-    std::string pointer_;
     Material material_;
 };
 
@@ -253,11 +245,11 @@ int variantMaterial(const tinygltf::Primitive& primitive, int variant) {
 
 }  // namespace
 
-std::uint32_t gltfMaterial(GltfImport& import, const tinygltf::Primitive& primitive, const std::string& user) {
+std::uint32_t gltfMaterial(GltfImport& import, const tinygltf::Primitive& primitive) {
     const int index = variantMaterial(primitive, import.variant);
     const std::size_t count = import.file.model.materials.size();
     if (index >= 0 && static_cast<std::size_t>(index) < count) return import.materialBase + static_cast<std::uint32_t>(index);
-    if (index >= 0) throw import.file.error(user + "/material", fmt::format("there is no material {}, the file has {}", index, count));
+    if (index >= 0) import.note(fmt::format("there is no material {}, the file has {}; what wears it is white", index, count));
     if (import.defaultMaterial == none) {
         import.defaultMaterial = static_cast<std::uint32_t>(import.scene.materials.size());
         import.scene.materials.push_back({.name = "default"});

@@ -46,7 +46,8 @@ public:
 private:
     bool hasTriangles() {
         if (source_.mode < TINYGLTF_MODE_POINTS || source_.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-            throw import_.file.error(pointer_ + "/mode", fmt::format("there is no primitive mode {}", source_.mode), "0 to 6 are known");
+            import_.note(fmt::format("primitives of mode {}, which there is none of, are left out", source_.mode));
+            return false;
         }
         if (source_.mode < TINYGLTF_MODE_TRIANGLES) {
             import_.note("points and lines are left out");
@@ -125,13 +126,7 @@ private:
             }
         }
         if (source_.attributes.contains("JOINTS_2")) import_.note("vertices follow eight joints at most");
-        for (VertexJoints& v : level_.joints) {
-            const float sum = std::accumulate(v.weights.begin(), v.weights.end(), 0.0f);
-            if (sum > 0)
-                for (float& weight : v.weights) weight /= sum;
-            else
-                v.weights[0] = 1;
-        }
+        for (VertexJoints& v : level_.joints) makeWhole(v);
     }
 
     void readTargets() {
@@ -213,7 +208,7 @@ private:
     }
 
     void shade() {
-        const std::uint32_t material = gltfMaterial(import_, source_, pointer_);
+        const std::uint32_t material = gltfMaterial(import_, source_);
         level_.materials.assign(level_.triangles.size(), material);
         if (level_.normals.empty()) {
             level_.tangents.clear();  // the format says so: tangents without normals mean nothing
@@ -288,6 +283,14 @@ MeshLevel loadGltfMesh(GltfImport& import, int index) {
         }
     }
     return level;
+}
+
+void makeWhole(VertexJoints& vertex) {
+    const float sum = std::accumulate(vertex.weights.begin(), vertex.weights.end(), 0.0f);
+    if (sum > 0)
+        for (float& weight : vertex.weights) weight /= sum;
+    else
+        vertex.weights[0] = 1;
 }
 
 void transformLevel(MeshLevel& level, const glm::mat4& matrix) {

@@ -34,7 +34,8 @@ template <class V> V vectorFrom(const GltfFile& file, const std::vector<double>&
     return result;
 }
 
-Node nodeFrom(const GltfFile& file, int index) {
+Node nodeFrom(GltfImport& import, int index) {
+    const GltfFile& file = import.file;
     const tinygltf::Node& source = file.model.nodes[static_cast<std::size_t>(index)];
     const std::string pointer = fmt::format("/nodes/{}", index);
     Node node;
@@ -51,7 +52,10 @@ Node nodeFrom(const GltfFile& file, int index) {
     node.scale = vectorFrom(file, source.scale, glm::vec3(1), pointer + "/scale");
     const glm::vec4 q = vectorFrom(file, source.rotation, glm::vec4(0, 0, 0, 1), pointer + "/rotation");
     const glm::dvec4 wide(q);  // the square of a large float is none
-    if (!(glm::length(wide) > 0)) throw file.error(pointer + "/rotation", "a rotation cannot be a zero quaternion");
+    if (!(glm::length(wide) > 0)) {
+        import.note(fmt::format("node \"{}\" has a zero quaternion, which is no rotation; it is not turned", node.name));
+        return node;
+    }
     const glm::vec4 unit(wide / glm::length(wide));
     node.rotation = glm::quat(unit.w, unit.x, unit.y, unit.z);
     return node;
@@ -64,7 +68,7 @@ public:
     void load(const GltfVisit& visit, std::uint32_t sceneParent) {
         const auto n = static_cast<std::size_t>(visit.node);
         const tinygltf::Node& source = model_.nodes[n];
-        Node node = nodeFrom(import_.file, visit.node);
+        Node node = nodeFrom(import_, visit.node);
         node.parent = visit.parent < 0 ? sceneParent : import_.nodes[static_cast<std::size_t>(visit.parent)];
         const auto place = static_cast<std::uint32_t>(import_.scene.nodes.size());
         import_.nodes[n] = place;
@@ -73,9 +77,8 @@ public:
             addMesh(visit.node, place);
         else if (findExtension(source.extensions, "MSFT_lod"))
             import_.note("levels of detail of nodes without a mesh of their own are ignored");
-        if (source.camera >= 0) addCamera(source.camera, visit.node, place);
-        if (const tinygltf::Value* punctual = findExtension(source.extensions, "KHR_lights_punctual"))
-            addLight(*punctual, visit.node, place);
+        if (source.camera >= 0) addCamera(source.camera, place);
+        if (const tinygltf::Value* punctual = findExtension(source.extensions, "KHR_lights_punctual")) addLight(*punctual, place);
     }
 
 private:
@@ -114,7 +117,15 @@ private:
                 import_.problem(pointer, fmt::format("with {} instances more the scene has more than {} nodes", count, maxNodes));
             return;
         }
+        const auto isFinite = [](const std::vector<float>& numbers, std::size_t i, std::size_t components) {
+            return numbers.empty() ||
+                   std::all_of(&numbers[components * i], &numbers[components * i] + components, [](float v) { return std::isfinite(v); });
+        };
         for (std::size_t i = 0; i < count; ++i) {
+            if (!isFinite(translations, i, 3) || !isFinite(rotations, i, 4) || !isFinite(scales, i, 3)) {
+                import_.note("instances with numbers that are not finite are left out");
+                continue;
+            }
             Node child;
             child.name = fmt::format("{} {}", name, i);
             child.parent = place;
@@ -136,9 +147,9 @@ private:
         chain.insert(chain.end(), coarser.begin(), coarser.end());
         std::vector<std::pair<int, std::vector<float>>> key;  // mesh and placement of each level
         std::vector<glm::mat4> placements;
-        const glm::mat4 base = localMatrix(nodeFrom(import_.file, node));
+        const glm::mat4 base = localMatrix(nodeFrom(import_, node));
         for (int level : chain) {
-            const glm::mat4 local = localMatrix(nodeFrom(import_.file, level));
+            const glm::mat4 local = localMatrix(nodeFrom(import_, level));
             // Levels that stand where the node stands are shared by all nodes of the mesh; rounding must not part them.
             const glm::mat4 placement = local == base ? glm::mat4(1) : glm::inverse(base) * local;
             placements.push_back(placement);
@@ -159,15 +170,20 @@ private:
         const std::size_t targets = mesh.levels[0].targets.size();
         const auto& own = model_.meshes[static_cast<std::size_t>(source.mesh)].weights;
         const std::vector<double>& weights = source.weights.empty() ? own : source.weights;
+        if (!weights.empty() && weights.size() != targets)
+            import_.note(
+                fmt::format("mesh \"{}\" has {} morph targets and {} weights; those it lacks are 0", mesh.name, targets, weights.size()));
         for (std::size_t i = 0; i < targets; ++i)
             mesh.weights.push_back(i < weights.size() && std::isfinite(weights[i]) ? static_cast<float>(weights[i]) : 0.0f);
         mesh.node = import_.nodes[static_cast<std::size_t>(node)];
         if (source.skin >= 0 && !mesh.levels[0].joints.empty()) {
-            if (static_cast<std::size_t>(source.skin) >= model_.skins.size())
-                throw import_.file.error(fmt::format("/nodes/{}/skin", node),
-                                         fmt::format("there is no skin {}, the file has {}", source.skin, model_.skins.size()));
-            import_.skinned.push_back({static_cast<std::uint32_t>(import_.scene.meshes.size()), source.skin});
-            mesh.skin = 0;  // until the nodes of its joints are there
+            if (static_cast<std::size_t>(source.skin) < model_.skins.size()) {
+                import_.skinned.push_back({static_cast<std::uint32_t>(import_.scene.meshes.size()), source.skin});
+                mesh.skin = 0;  // until the nodes of its joints are there
+            } else {
+                import_.note(fmt::format("there is no skin {}, the file has {}; its meshes stand as they were modelled", source.skin,
+                                         model_.skins.size()));
+            }
         }
         for (MeshLevel& level : mesh.levels) {
             level.targets.resize(targets);
@@ -234,10 +250,9 @@ private:
         }
     }
 
-    void addCamera(int index, int node, std::uint32_t place) {
+    void addCamera(int index, std::uint32_t place) {
         if (index >= static_cast<int>(model_.cameras.size())) {
-            throw import_.file.error(fmt::format("/nodes/{}/camera", node),
-                                     fmt::format("there is no camera {}, the file has {}", index, model_.cameras.size()));
+            return import_.note(fmt::format("there is no camera {}, the file has {}", index, model_.cameras.size()));
         }
         const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(index)];
         const std::string& name = import_.scene.nodes[place].name;
@@ -255,12 +270,18 @@ private:
         }
     }
 
-    void addLight(const tinygltf::Value& punctual, int node, std::uint32_t place) {
+    void addLight(const tinygltf::Value& punctual, std::uint32_t place) {
         const int index = integerOf(&punctual, "light", -1);
-        const std::string pointer = fmt::format("/nodes/{}/extensions/KHR_lights_punctual/light", node);
-        if (index < 0 || static_cast<std::size_t>(index) >= model_.lights.size()) {
-            throw import_.file.error(pointer, fmt::format("there is no light {}, the file has {}", index, model_.lights.size()));
+        if (index < 0 || static_cast<std::size_t>(index) >= model_.lights.size())
+            return import_.note(fmt::format("there is no light {}, the file has {}", index, model_.lights.size()));
+        try {
+            import_.scene.lights.push_back(lightFrom(index, place));
+        } catch (const Error& error) {
+            import_.noteLeftOut(fmt::format("light {}", index), error);
         }
+    }
+
+    Light lightFrom(int index, std::uint32_t place) const {
         const tinygltf::Light& source = model_.lights[static_cast<std::size_t>(index)];
         const std::string lightPointer = fmt::format("/extensions/KHR_lights_punctual/lights/{}", index);
         Light light;
@@ -273,13 +294,13 @@ private:
             throw import_.file.error(lightPointer + "/type", fmt::format("there is no light type \"{}\"", source.type),
                                      "known: point, spot, directional");
         light.color = glm::max(vectorFrom(import_.file, source.color, glm::vec3(1), lightPointer + "/color"), 0.0f);
-        light.intensity = std::max(static_cast<float>(source.intensity), 0.0f);
-        light.range = std::max(static_cast<float>(source.range), 0.0f);
+        light.intensity = std::max(finite(import_.file, source.intensity, lightPointer + "/intensity"), 0.0f);
+        light.range = std::max(finite(import_.file, source.range, lightPointer + "/range"), 0.0f);
         constexpr float widest = 1.5707964f;
         light.outerCone = std::clamp(static_cast<float>(source.spot.outerConeAngle), 1e-4f, widest);
         light.innerCone = std::clamp(static_cast<float>(source.spot.innerConeAngle), 0.0f, light.outerCone);
         light.node = place;
-        import_.scene.lights.push_back(std::move(light));
+        return light;
     }
 
     GltfImport& import_;

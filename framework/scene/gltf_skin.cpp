@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Skins of a glTF model.
 #include <framework/scene/accessor.h>
+#include <framework/scene/gltf_mesh.h>
 #include <framework/scene/gltf_skin.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace lodestir {
@@ -33,35 +34,62 @@ Skin skinOf(const GltfImport& import, int index) {
     if (matrices.count() < skin.nodes.size())
         throw import.file.error(user, fmt::format("{} matrices for {} joints", matrices.count(), skin.nodes.size()));
     const std::vector<float> values = matrices.floats();
-    for (std::size_t i = 0; i < skin.nodes.size(); ++i)
-        for (int k = 0; k < 16; ++k) skin.inverseBind[i][k / 4][k % 4] = values[16 * i + static_cast<std::size_t>(k)];
+    for (std::size_t i = 0; i < skin.nodes.size(); ++i) {
+        for (int k = 0; k < 16; ++k) {
+            const float value = values[16 * i + static_cast<std::size_t>(k)];
+            if (!std::isfinite(value)) throw import.file.error(user, fmt::format("matrix {} is not finite", i));
+            skin.inverseBind[i][k / 4][k % 4] = value;
+        }
+    }
     return skin;
 }
 
-void checkJoints(const GltfImport& import, const Mesh& mesh, int skin, std::size_t joints) {
-    for (const MeshLevel& level : mesh.levels)
-        for (const VertexJoints& v : level.joints)
-            for (std::size_t i = 0; i < v.joints.size(); ++i)
-                if (v.weights[i] > 0 && v.joints[i] >= joints)
-                    throw import.file.error(fmt::format("/skins/{}/joints", skin),
-                                            fmt::format("a vertex of mesh \"{}\" follows joint {}, the skin has {}", mesh.name, v.joints[i], joints));
+/// Takes away what vertices follow of joints past the last; true where there was any.
+bool dropForeignJoints(Mesh& mesh, std::size_t joints) {
+    bool any = false;
+    for (MeshLevel& level : mesh.levels) {
+        for (VertexJoints& v : level.joints) {
+            for (std::size_t i = 0; i < v.joints.size(); ++i) {
+                if (v.joints[i] < joints) continue;
+                any = any || v.weights[i] > 0;
+                v.joints[i] = 0;
+                v.weights[i] = 0;
+            }
+            makeWhole(v);
+        }
+    }
+    return any;
+}
+
+void takeOffSkin(Mesh& mesh) {
+    mesh.skin = none;
+    for (MeshLevel& level : mesh.levels) {
+        level.joints.clear();
+        if (!mesh.deforms()) level.flatFaces.clear();
+    }
 }
 
 }  // namespace
 
 void loadGltfSkins(GltfImport& import) {
-    std::map<int, std::uint32_t> known;
-    for (const auto& [mesh, skin] : import.skinned) {
-        try {
-            if (!known.contains(skin)) {
+    std::map<int, std::uint32_t> known;  // none: cannot be used
+    for (const auto& [index, skin] : import.skinned) {
+        Mesh& mesh = import.scene.meshes[index];
+        const auto [place, isNew] = known.try_emplace(skin, none);
+        if (isNew) {
+            try {
                 import.scene.skins.push_back(skinOf(import, skin));
-                known[skin] = static_cast<std::uint32_t>(import.scene.skins.size() - 1);
+                place->second = static_cast<std::uint32_t>(import.scene.skins.size() - 1);
+            } catch (const Error& error) {
+                import.noteLeftOut(fmt::format("skin {}", skin), error);
             }
-            import.scene.meshes[mesh].skin = known[skin];
-            checkJoints(import, import.scene.meshes[mesh], skin, import.scene.skins[known[skin]].nodes.size());
-        } catch (const Error& error) {
-            import.problems.add(error);
         }
+        mesh.skin = place->second;
+        if (mesh.skin == none)
+            takeOffSkin(mesh);
+        else if (dropForeignJoints(mesh, import.scene.skins[mesh.skin].nodes.size()))
+            import.note(
+                fmt::format("vertices of mesh \"{}\" follow joints that skin {} has not; their weights go to the others", mesh.name, skin));
     }
 }
 

@@ -19,6 +19,8 @@ namespace {
 constexpr std::int64_t largestImage = std::int64_t(1) << 28;  // texels: 1 GiB once decoded
 constexpr std::int64_t jpegTexelsPerByte = 512;               // at most: a block of 64 takes a bit at least
 
+template <class T> using StbPixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
+
 Wrap wrapOf(int mode) {
     if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
@@ -42,7 +44,7 @@ std::string_view foreignFormat(std::span<const std::byte> bytes) {
     return text.starts_with("DDS ") ? "DDS" : "";
 }
 
-void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
+bool decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     if (bytes.empty()) throw Error("the image has no data");
     if (bytes.size() > 0x7fffffff) throw Error("the image file is larger than 2 GiB");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
@@ -61,18 +63,30 @@ void decodeImage(std::span<const std::byte> bytes, Texture& texture) {
     // A JPEG may break off anywhere, the rest being grey: without this, ten bytes could ask for a gigabyte of it.
     if (isJpeg && std::int64_t(width) * height / jpegTexelsPerByte > size)
         throw Error(fmt::format("the image claims {}x{} texels, more than its {} bytes can hold", width, height, size), "is the file cut short?");
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4),
-                                                           stbi_image_free);
-    if (!pixels) throw Error(fmt::format("the image cannot be decoded: {}", stbi_failure_reason()), "is the file cut short?");
-    texture.width = width;
-    texture.height = height;
-    texture.rgba.assign(pixels.get(), pixels.get() + std::size_t(4) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const std::size_t values = std::size_t(4) * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    const auto keep = [&](const auto* pixels, auto narrow) {
+        if (!pixels) throw Error(fmt::format("the image cannot be decoded: {}", stbi_failure_reason()), "is the file cut short?");
+        texture.width = width;
+        texture.height = height;
+        texture.rgba.resize(values);
+        std::transform(pixels, pixels + values, texture.rgba.begin(), narrow);
+    };
+    const bool isWide = stbi_is_16_bit_from_memory(data, size);
+    if (isWide) {
+        const StbPixels<stbi_us> pixels(stbi_load_16_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+        // To the nearest; stb itself drops the lower byte, up to a step away.
+        keep(pixels.get(), [](stbi_us value) { return static_cast<std::uint8_t>((value * 255u + 32767u) / 65535u); });
+    } else {
+        const StbPixels<stbi_uc> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4), stbi_image_free);
+        keep(pixels.get(), [](stbi_uc value) { return value; });
+    }
+    return isWide;
 }
 
-std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
+std::uint32_t GltfTextures::use(int index, bool srgb) {
     const tinygltf::Model& model = import_.file.model;
     if (index < 0 || static_cast<std::size_t>(index) >= model.textures.size()) {
-        import_.problem(user, fmt::format("there is no texture {}, the file has {}", index, model.textures.size()));
+        import_.note(fmt::format("there is no texture {}, the file has {}; it is left out", index, model.textures.size()));
         return none;
     }
     const tinygltf::Texture& texture = model.textures[static_cast<std::size_t>(index)];
@@ -83,26 +97,22 @@ std::uint32_t GltfTextures::use(int index, bool srgb, const std::string& user) {
         return none;
     }
     if (static_cast<std::size_t>(texture.source) >= imageCount) {
-        import_.problem(fmt::format("/textures/{}/source", index),
-                        fmt::format("there is no image {}, the file has {}", texture.source, imageCount));
+        import_.note(fmt::format("there is no image {}, the file has {}; texture {} is left out", texture.source, imageCount, index));
         return none;
     }
     tinygltf::Sampler sampler;
-    if (texture.sampler >= 0) {
-        if (static_cast<std::size_t>(texture.sampler) >= model.samplers.size()) {
-            import_.problem(fmt::format("/textures/{}/sampler", index),
-                            fmt::format("there is no sampler {}, the file has {}", texture.sampler, model.samplers.size()));
-            return none;
-        }
+    if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model.samplers.size())
         sampler = model.samplers[static_cast<std::size_t>(texture.sampler)];
-    }
+    else if (texture.sampler >= 0)
+        import_.note(
+            fmt::format("there is no sampler {}, the file has {}; texture {} repeats", texture.sampler, model.samplers.size(), index));
     const bool nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     const Key key{texture.source, srgb, nearest, wrapOf(sampler.wrapS), wrapOf(sampler.wrapT)};
     const auto [place, isNew] = textures_.try_emplace(key, static_cast<std::uint32_t>(import_.scene.textures.size()));
     if (isNew) {
         const Json& image = images->items()[static_cast<std::size_t>(texture.source)];
         const Json *name = image.find("name"), *uri = image.find("uri");
-        const bool fileNamed = uri && uri->isString() && !uri->asString().starts_with("data:");
+        const bool fileNamed = uri && uri->isString() && !isDataUri(uri->asString());
         import_.scene.textures.push_back({
             .name = name && name->isString() ? name->asString()
                     : fileNamed              ? percentDecode(uri->asString())
@@ -121,6 +131,7 @@ void GltfTextures::decode() {
     const std::vector<std::pair<int, std::vector<std::uint32_t>>> images(users_.begin(), users_.end());
     std::vector<std::optional<Error>> errors(images.size());
     std::vector<std::string_view> foreign(images.size());
+    std::vector<char> wide(images.size(), 0);
     const GltfFile& file = import_.file;
     parallelFor(images.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -130,7 +141,7 @@ void GltfTextures::decode() {
                 foreign[i] = foreignFormat(bytes);
                 if (!foreign[i].empty()) continue;
                 Texture& first = import_.scene.textures[users[0]];
-                decodeImage(bytes, first);
+                wide[i] = decodeImage(bytes, first);
                 for (std::size_t user = 1; user < users.size(); ++user) {
                     Texture& other = import_.scene.textures[users[user]];
                     other.width = first.width;
@@ -138,26 +149,27 @@ void GltfTextures::decode() {
                     other.rgba = first.rgba;
                 }
             } catch (const Error& error) {
-                errors[i] =
-                    error.problems()[0].where.file == file.path.string() ? error : file.error(fmt::format("/images/{}", index), error);
+                errors[i] = error;
             }
         }
     });
     for (std::size_t i = 0; i < images.size(); ++i) {
-        if (errors[i]) import_.problems.add(*errors[i]);
-        if (!foreign[i].empty()) leaveOut(images[i].first, foreign[i]);
+        if (wide[i]) import_.note("images of 16 bits a channel are kept with 8");
+        if (!foreign[i].empty()) import_.note(fmt::format("{} images cannot be read; textures of that format are left out", foreign[i]));
+        if (errors[i]) import_.noteLeftOut(fmt::format("image {}", images[i].first), *errors[i]);
+        if (errors[i] || !foreign[i].empty()) leaveOut(images[i].first);
     }
 }
 
-void GltfTextures::leaveOut(int image, std::string_view format) {
-    import_.note(fmt::format("{} images cannot be read; textures of that format are left out", format));
+void GltfTextures::leaveOut(int image) {
     for (const std::uint32_t texture : users_[image]) {
         Texture& empty = import_.scene.textures[texture];
         empty.width = empty.height = 1;
         empty.rgba = {255, 255, 255, 255};
         for (std::size_t m = import_.materialBase; m < import_.scene.materials.size(); ++m) {
             Material& material = import_.scene.materials[m];
-            if (material.emissiveMap.texture == texture) material.emission = glm::vec3(0);  // the map said where; all of it would be wrong
+            if (material.emissiveMap.texture == texture && !material.unlit)
+                material.emission = glm::vec3(0);  // as where a file has no such texture
             for (TextureSlot* slot : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap, &material.occlusionMap,
                                       &material.emissiveMap, &material.transmissionMap}) {
                 if (slot->texture == texture) *slot = {};

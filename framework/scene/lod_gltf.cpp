@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <set>
@@ -33,7 +34,8 @@ public:
         const auto& primitives = file_.model.meshes[mesh_].primitives;
         for (std::size_t i = 0; i < primitives.size(); ++i) {
             surface_.starts.push_back(std::uint32_t(surface_.level.positions.size()));
-            if (primitives[i].mode >= TINYGLTF_MODE_TRIANGLES && primitives[i].attributes.contains("POSITION")) add(primitives[i], i);
+            const bool isDrawn = primitives[i].mode >= TINYGLTF_MODE_TRIANGLES && primitives[i].mode <= TINYGLTF_MODE_TRIANGLE_FAN;
+            if (isDrawn && primitives[i].attributes.contains("POSITION")) add(primitives[i], i);
         }
         surface_.starts.push_back(std::uint32_t(surface_.level.positions.size()));
         return std::move(surface_);
@@ -111,6 +113,7 @@ public:
             addChain(mesh, nodes);
             progress.advance();
         }
+        std::ranges::copy(glb_.notes, std::back_inserter(model_.notes));
         model_.glb = glb_.bytes();
         return std::move(model_);
     }

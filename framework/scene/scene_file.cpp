@@ -120,8 +120,8 @@ private:
             choose("animation", choices.animation);
             fields.finish();
             if (!member || file.empty()) continue;
-            Path path = path_.parent_path() / file;
-            if (!isFile(path)) path = sceneFolder() / file;
+            Path path = namedPath(path_.parent_path(), file);
+            if (!isFile(path)) path = namedPath(sceneFolder(), file);
             if (!isFile(path)) {
                 problems_.add(member->where(), fmt::format("there is no model \"{}\" beside the scene file", file),
                               "generated models lie in the build's scenes folder");

@@ -52,8 +52,9 @@ Environment readMap(Fields& fields, const Path& folder, std::vector<std::string>
     fields.finish();
     if (!value || file.empty() || !fields.problems().empty()) return {};
     try {
-        if (!isFile(folder / file)) throw Error(fmt::format("there is no file \"{}\"", (folder / file).string()));
-        return loadEnvironmentMap(folder / file, notes);
+        const Path path = namedPath(folder, file);
+        if (!isFile(path)) throw Error(fmt::format("there is no file \"{}\"", path.string()));
+        return loadEnvironmentMap(path, notes);
     } catch (const Error& error) {
         const Problem& problem = error.problems()[0];
         fields.problem(value->where(), problem.where.file.empty() ? problem.what : problem.where.file + ": " + problem.what, problem.hint);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
@@ -50,7 +51,22 @@ std::vector<std::byte> readDataUri(const std::string& uri) {
     return {bytes.begin(), bytes.end()};
 }
 
-/// "http:", "file:" and the like; a single letter is a drive, not a scheme.
+bool startsWithScheme(std::string_view uri, std::string_view scheme) {
+    return uri.size() >= scheme.size() && std::ranges::equal(uri.substr(0, scheme.size()), scheme, {}, [](unsigned char c) {
+               return static_cast<char>(std::tolower(c));  // schemes are the same in capitals (RFC 3986, section 3.1)
+           });
+}
+
+/// The path of a file: URI (RFC 8089): of this machine, or relative, which is none but is meant by those who write it.
+std::string_view pathOfFileUri(std::string_view uri) {
+    uri.remove_prefix(std::string_view("file:").size());
+    if (!uri.starts_with("//")) return uri;
+    uri.remove_prefix(2);
+    if (startsWithScheme(uri, "localhost/")) uri.remove_prefix(uri.find('/'));
+    return uri;
+}
+
+/// "http:" and the like; a single letter is a drive, not a scheme.
 bool hasScheme(std::string_view uri) {
     std::size_t length = 0;
     while (length < uri.size() && (std::isalnum(static_cast<unsigned char>(uri[length])) || uri[length] == '+' || uri[length] == '-'))
@@ -59,6 +75,8 @@ bool hasScheme(std::string_view uri) {
 }
 
 }  // namespace
+
+bool isDataUri(std::string_view uri) { return startsWithScheme(uri, "data:"); }
 
 std::string percentDecode(std::string_view text) {
     std::string result;
@@ -95,15 +113,14 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text) {
 }
 
 std::vector<std::byte> readUri(const std::string& uri, const Path& folder) {
-    if (uri.starts_with("data:")) return readDataUri(uri);
-    if (hasScheme(uri))
-        throw Error(fmt::format("\"{}\" is a network or absolute address", shown(uri)),
-                    "put the file beside the model and name it by its path");
-    Path path = folder / Path(percentDecode(uri));
-    if (!isFile(path)) path = folder / Path(uri);
-    if (!isFile(path))
-        throw Error(fmt::format("file \"{}\" is missing", (folder / Path(percentDecode(uri))).string()));
-    return readBytes(path);
+    if (isDataUri(uri)) return readDataUri(uri);
+    const bool isFileUri = startsWithScheme(uri, "file:");
+    const std::string name(isFileUri ? pathOfFileUri(uri) : uri), decoded = percentDecode(name);
+    for (const std::string& candidate : {decoded, name})
+        if (const Path path = namedPath(folder, candidate); isFile(path)) return readBytes(path);
+    if (hasScheme(uri) && !isFileUri)
+        throw Error(fmt::format("\"{}\" is a network address", shown(uri)), "put the file beside the model and name it by its path");
+    throw Error(fmt::format("file \"{}\" is missing", (folder / decoded).string()));
 }
 
 }  // namespace lodestir

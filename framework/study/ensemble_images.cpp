@@ -11,6 +11,8 @@
 namespace lodestir {
 namespace {
 
+const std::vector<std::string> chunkChannels{"mean.0", "mean.1", "mean.2", "square"};
+
 Path fileOf(const Path& folder, const std::string& chunk, int offset) { return folder / fmt::format("{}.{}.exr", chunk, offset); }
 
 double luminanceOf(const ImageData& image, std::size_t pixel) {
@@ -29,18 +31,16 @@ double varianceOf(const EnsembleImage& e, std::size_t pixel) {
 }  // namespace
 
 void keepChunkImage(const Path& folder, const std::string& chunk, int offset, const ImageData& image, int runs) {
-    writeExr(fileOf(folder, chunk, offset), image,
-             {.channels = {"mean.0", "mean.1", "mean.2", "square"}, .attributes = {{"runs", std::to_string(runs)}}});
+    writeExr(fileOf(folder, chunk, offset), image, {.channels = chunkChannels, .attributes = {{"runs", std::to_string(runs)}}});
 }
 
 EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>& chunks, int offset) {
     EnsembleImage whole;
     std::vector<double> sum;
     for (const std::string& chunk : chunks) {
-        const ExrFile file = readExrFile(fileOf(folder, chunk, offset));
+        const ExrFile file = readExrChannels(fileOf(folder, chunk, offset), chunkChannels);
         const auto runs = file.attributes.find("runs");
-        if (file.image.channels != 4 || runs == file.attributes.end())
-            throw Error({fileOf(folder, chunk, offset).string()}, "is no image of a chunk of runs");
+        if (runs == file.attributes.end()) throw Error({fileOf(folder, chunk, offset).string()}, "is no image of a chunk of runs");
         const double count = std::stod(runs->second);
         sum.resize(file.image.values.size());
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += count * double(file.image.values[i]);

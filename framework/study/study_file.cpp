@@ -84,8 +84,8 @@ private:
         return number;
     }
     Path resolve(const Json& value, const std::string& what) const {
-        const Path path = value.asString(what);
-        const Path whole = path.is_absolute() ? path : (study_.file.parent_path() / path).lexically_normal();
+        const std::string name = value.asString(what);
+        const Path whole = Path(name).is_absolute() ? Path(name) : namedPath(study_.file.parent_path(), name).lexically_normal();
         if (!isFile(whole)) throw Error(value.where(), fmt::format("there is no file {}", whole.string()));
         return whole;
     }

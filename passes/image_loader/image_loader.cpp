@@ -15,8 +15,10 @@ namespace {
 /// Grey in all three; opacity is 1 where the file has none.
 std::array<float, 4> rgbaOf(const ImageData& image, int x, int y) {
     const auto c = [&](int channel) { return image.at(x, y, channel); };
-    if (image.channels < 3) return {c(0), c(0), c(0), image.channels == 2 ? c(1) : 1};
-    return {c(0), c(1), c(2), image.channels > 3 ? c(3) : 1};
+    const int colors = image.channels - (image.hasOpacity ? 1 : 0);
+    const float opacity = image.hasOpacity ? c(colors) : 1;
+    if (colors == 1) return {c(0), c(0), c(0), opacity};
+    return {c(0), c(1), colors > 2 ? c(2) : 0, opacity};
 }
 
 /// Where the centre of pixel `i` of `count` falls among `wanted` pixels' worth of another image: two pixels and the share of the second.

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 
 namespace lodestir {
 namespace {
@@ -113,28 +115,85 @@ TEST(Animation, LoadsFromGltf) {
     EXPECT_NEAR(quarter[2].x, 1, 1e-4);
 }
 
-// If this fails, a wrong sampler reads past its keys.
-TEST(Animation, RefusesWrongSamplers) {
-    const auto refusal = [](const std::vector<float>& times, std::size_t values, const char* interpolation) {
-        GltfModel model;
-        model.addTriangle();
-        const int input = model.accessor(times, 5126, "SCALAR", 1), output = model.positions(std::vector<float>(values * 3, 0.0f));
-        model.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
-                                     {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}}};
-        try {
-            Scene scene;
-            loadGltf(model.write(Path(testing::TempDir()) / "lodestir_animation" / "wrong.gltf"), scene, none);
-        } catch (const Error& error) {
-            return std::string(error.what());
-        }
-        return std::string();
+/// A triangle that `count` animations move along x by these keys.
+Scene moved(const std::vector<float>& times, const std::vector<float>& x, const char* interpolation = "LINEAR",
+            const std::function<void(nlohmann::json&)>& change = {}) {
+    GltfModel model;
+    model.addTriangle();
+    std::vector<float> xyz;
+    for (float value : x) xyz.insert(xyz.end(), {value, 0, 0});
+    const int input = model.accessor(times, 5126, "SCALAR", 1), output = model.positions(xyz);
+    model.json["animations"] = {{{"name", "slide"},
+                                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+                                 {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}}};
+    if (change) change(model.json);
+    Scene scene;
+    loadGltf(model.write(Path(testing::TempDir()) / "lodestir_animation" / "moved.gltf"), scene, none);
+    scene.framesPerSecond = 30;
+    return scene;
+}
+
+// If this fails, a wrong sampler reads past its keys, or the model is not shown because of it.
+TEST(Animation, WhatCannotBePlayedIsLeftOut) {
+    const auto noteOf = [](const Scene& scene) {
+        EXPECT_TRUE(scene.animation.empty());
+        EXPECT_EQ(scene.animationLength, 0);
+        EXPECT_EQ(scene.instances.size(), 1u);
+        return scene.notes.empty() ? std::string() : scene.notes.front();
     };
-    EXPECT_EQ(refusal({0, 1}, 2, "LINEAR"), "");
-    EXPECT_NE(refusal({0, 1}, 1, "LINEAR").find("/animations/0/samplers/0/output: 1 values for 2 keys, expected 2"), std::string::npos);
-    EXPECT_NE(refusal({0, 1}, 2, "CUBICSPLINE").find("expected 6"), std::string::npos);
-    EXPECT_NE(refusal({1, 0}, 2, "LINEAR").find("times must rise, key 1 does not"), std::string::npos);
-    EXPECT_NE(refusal({-1, 0}, 2, "LINEAR").find("time -1 of key 0"), std::string::npos);
-    EXPECT_NE(refusal({0, 1}, 2, "BEZIER").find("there is no interpolation \"BEZIER\""), std::string::npos);
+    EXPECT_NE(noteOf(moved({0, 1}, {0}))
+                  .find("animation \"slide\" is left out: /animations/0/samplers/0/output: 1 values for 2 keys, expected 2"),
+              std::string::npos);
+    EXPECT_NE(noteOf(moved({0, 1}, {0, 0}, "CUBICSPLINE")).find("expected 6"), std::string::npos);
+    EXPECT_NE(noteOf(moved({1, 0}, {0, 0})).find("times must not fall, key 1 does"), std::string::npos);
+    EXPECT_NE(noteOf(moved({0, std::nanf("")}, {0, 0})).find("the time of key 1 is not finite"), std::string::npos);
+    EXPECT_NE(noteOf(moved({0, 1}, {0, std::numeric_limits<float>::infinity()})).find("value 1 is not finite"), std::string::npos);
+    EXPECT_NE(noteOf(moved({0, 1}, {0, 0}, "BEZIER")).find("there is no interpolation \"BEZIER\""), std::string::npos);
+    EXPECT_NE(noteOf(moved({0, 1}, {0, 0}, "LINEAR", [](auto& json) { json["animations"][0]["samplers"][0]["input"] = 77; }))
+                  .find("there is no accessor 77"),
+              std::string::npos);
+    const auto other = [](const char* key, int value) {
+        return [=](auto& json) {
+            (key == std::string("node") ? json["animations"][0]["channels"][0]["target"] : json["animations"][0]["channels"][0])[key] =
+                value;
+        };
+    };
+    EXPECT_NE(noteOf(moved({0, 1}, {0, 0}, "LINEAR", other("node", 5))).find("names a node or a sampler that is not there"),
+              std::string::npos);
+    EXPECT_NE(noteOf(moved({0, 1}, {0, 0}, "LINEAR", other("sampler", 5))).find("names a node or a sampler that is not there"),
+              std::string::npos);
+}
+
+// If this fails, one clip that cannot be played takes another with it, or moves half of the model.
+TEST(Animation, LeavesOutTheWholeClipAndNoOther) {
+    const Scene scene = moved({0, 1}, {0, 2}, "LINEAR", [](auto& json) {
+        nlohmann::json broken = json["animations"][0];
+        broken["channels"].push_back({{"sampler", 1}, {"target", {{"node", 0}, {"path", "scale"}}}});
+        broken["samplers"].push_back({{"input", 99}, {"output", 99}});
+        json["animations"] = {broken, json["animations"][0]};
+    });
+    ASSERT_EQ(scene.animation.size(), 1u);
+    EXPECT_FLOAT_EQ(scene.nodeMatrices(15)[0][3].x, 1);
+    EXPECT_EQ(scene.notes.size(), 2u) << "which there are to choose from, and which is left out";
+}
+
+// Known answers: positions by hand. If this fails, jumps are smeared, or what begins before zero is shifted.
+TEST(Animation, EqualTimesAreAJumpAndNegativeOnesBeforeTheStart) {
+    const Scene jump = moved({0, 0.5f, 0.5f, 1}, {-1, -1, 1, 1});
+    for (const auto& [frame, x] : {std::pair(0, -1), {14, -1}, {15, 1}, {29, 1}})
+        EXPECT_FLOAT_EQ(jump.nodeMatrices(float(frame))[0][3].x, float(x)) << frame;
+    const Scene thrice = moved({0, 0, 0.5f, 0.5f, 0.5f, 1}, {9, 0, 1, 7, 3, 4});
+    for (const auto& [frame, x] : {std::pair(0.0f, 0.0f), {7.5f, 0.5f}, {15.0f, 3.0f}, {22.5f, 3.5f}})
+        EXPECT_FLOAT_EQ(thrice.nodeMatrices(frame)[0][3].x, x) << frame;
+    const Scene early = moved({-1, 0.5f, 1}, {-3, 0, 1});
+    for (const auto& [frame, x] : {std::pair(0, -1.0f), {15, 0.0f}, {30 + 15, 0.0f}})
+        EXPECT_NEAR(early.nodeMatrices(float(frame))[0][3].x, x, 1e-6) << frame;
+    const Scene before = moved({-2, -1}, {5, 6});
+    for (const float frame : {0.0f, 100.0f}) EXPECT_FLOAT_EQ(before.nodeMatrices(frame)[0][3].x, 6) << "its last key holds";
+    const Scene cubic = moved({0, 0.5f, 0.5f, 1}, {0, 0, 0, 0, 1, 0, 0, 5, 0, 0, 6, 0}, "CUBICSPLINE");
+    EXPECT_FLOAT_EQ(cubic.nodeMatrices(7.5f)[0][3].x, 0.5f);
+    EXPECT_FLOAT_EQ(cubic.nodeMatrices(15)[0][3].x, 5);
+    EXPECT_FLOAT_EQ(cubic.nodeMatrices(22.5f)[0][3].x, 5.5f);
 }
 
 // If this fails, camera keys are missed: linear between, constant outside.

@@ -6,6 +6,7 @@
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/json.h>
+#include <framework/image/exr.h>
 #include <framework/image/image_file.h>
 #include <framework/image/metrics.h>
 
@@ -60,6 +61,22 @@ TEST_F(Compare, TextIsALineAMetric) {
 
 TEST_F(Compare, OpacityIsNotCompared) {
     EXPECT_EQ(compare({"x4.exr", "r.exr", "--metrics", "mse"}), compare({"x.exr", "r.exr", "--metrics", "mse"}));
+}
+
+// If this fails, images that differ in red are called equal: red is the last of a layer's channels by name.
+TEST_F(Compare, LayersAreComparedByTheirColours) {
+    const std::vector<std::string> names{"View.Combined.R", "View.Combined.G", "View.Combined.B", "View.Combined.A"};
+    writeExr(folder / "layer.exr", {1, 1, 4, {0.2f, 0.5f, 0.8f, 1}}, {.channels = names});
+    writeExr(folder / "red.exr", {1, 1, 4, {0.3f, 0.5f, 0.8f, 0}}, {.channels = names});
+    writeExr(folder / "plain.exr", {1, 1, 3, {0.2f, 0.5f, 0.8f}});
+    writeExr(folder / "motion.exr", {1, 1, 2, {1, 2}});
+    writeExr(folder / "other.exr", {1, 1, 2, {1, 4}});
+    const auto mse = [&](const char* test, const char* reference) {
+        return Json::parse(compare({test, reference, "--metrics", "mse", "--json"}), "stdout").find("mse")->asNumber();
+    };
+    EXPECT_NEAR(mse("red.exr", "layer.exr"), 0.01 / 3, 1e-8);
+    EXPECT_EQ(mse("layer.exr", "plain.exr"), 0);
+    EXPECT_EQ(mse("motion.exr", "other.exr"), 2) << "the second of two channels is no opacity";
 }
 
 TEST_F(Compare, ExposureCanBeFixed) {

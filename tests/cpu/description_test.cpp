@@ -72,6 +72,15 @@ TEST(Description, HasDefaultsForFrameAndScene) {
     EXPECT_TRUE(d.scene.empty());
 }
 
+TEST(Description, TheScenesPathMayHaveBackslashes) {
+    const Path folder = Path(testing::TempDir()) / "lodestir_description";
+    for (const char* name : {"scenes/room.json", "graphs/g.json"}) writeFile(folder / name, std::string_view("{}"));
+    const Description d = readDescription(
+        Json::parse(R"({"format": 1, "scene": "..\\scenes\\room.json", "passes": {"a": {"type": "t"}}, "show": "a"})", "g.json"),
+        folder / "graphs/g.json");
+    EXPECT_EQ(d.scene, folder / "scenes/room.json");
+}
+
 TEST(Description, AppliesAVariantAsAMergePatch) {
     const Description dark = read({.variant = "dark"});
     EXPECT_TRUE(dark.nodes[1].off);

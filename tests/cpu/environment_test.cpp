@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Environment maps: the direction rule, solid angles, the sky and its sun.
 #include <framework/core/error.h>
+#include <framework/image/exr.h>
 #include <framework/scene/atmosphere.h>
 #include <framework/scene/environment.h>
 #include <framework/scene/sky.h>
@@ -51,6 +52,25 @@ TEST(Environment, KnowsWhereDirectionsAre) {
     EXPECT_NEAR(environmentUv({0, -1, 0}, 0).y, 1, 1e-6);
     // A quarter turn by the right hand about +Y takes what was at -Z to -X.
     EXPECT_NEAR(environmentUv({-1, 0, 0}, float(pi / 2)).x, 0.5, 1e-6);
+}
+
+// If this fails, what a file has beside its colours is taken for one of them.
+TEST(Environment, MapsAreColourOrGrey) {
+    std::string name = testing::TempDir() + "lodestir_environment_XXXXXX";
+    const Path folder = ::mkdtemp(name.data());
+    const auto radiance = [&](const ImageData& image, const std::vector<std::string>& channels) {
+        writeExr(folder / "map.exr", image, {.channels = channels});
+        std::vector<std::string> notes;
+        const Environment map = loadEnvironmentMap(folder / "map.exr", notes);
+        EXPECT_EQ(notes, std::vector<std::string>{});
+        return map.radiance;
+    };
+    const glm::vec3 color(1, 2, 3);
+    EXPECT_EQ(radiance({2, 1, 4, {1, 2, 3, 0.5f, 4, 5, 6, 0.5f}}, {"sky.R", "sky.G", "sky.B", "sky.A"})[0], color);
+    EXPECT_EQ(radiance({2, 1, 4, {1, 2, 3, 9, 4, 5, 6, 9}}, {"r", "g", "b", "Z"})[0], color);
+    EXPECT_EQ(radiance({2, 1, 2, {7, 0.5f, 8, 0.5f}}, {"Y", "A"})[1], glm::vec3(8));
+    EXPECT_THROW(radiance({2, 1, 2, {1, 2, 3, 4}}, {"R", "G"}), Error);
+    std::filesystem::remove_all(folder);
 }
 
 // If this fails, sampling a texel looks up another one.

@@ -234,6 +234,19 @@ private:
     bool had_;
 };
 
+// If this fails, files written on Windows name nothing, or a name that really has a backslash means another file.
+TEST_F(Files, BackslashesAreSlashesWhereNothingHasTheName) {
+    writeFile(folder / "sub/a.txt", std::string_view("a"));
+    writeFile(folder / "sub/b.txt", std::string_view("b"));
+    writeFile(folder / "sub\\b.txt", std::string_view("b, with a backslash"));
+    EXPECT_EQ(namedPath(folder, "sub/a.txt"), folder / "sub/a.txt");
+    EXPECT_EQ(namedPath(folder, "sub\\a.txt"), folder / "sub/a.txt");
+    EXPECT_EQ(namedPath(folder / "sub", "..\\sub\\a.txt"), folder / "sub/../sub/a.txt");
+    EXPECT_EQ(namedPath("elsewhere", (folder / "sub\\a.txt").string()), folder / "sub/a.txt");
+    EXPECT_EQ(namedPath(folder, "sub\\b.txt"), folder / "sub\\b.txt");
+    EXPECT_EQ(namedPath(folder, "sub\\c.txt"), folder / "sub\\c.txt") << "what is said to be missing is the name as it was written";
+}
+
 TEST_F(Files, TheCacheLiesWhereTheUserSays) {
     {
         const Environment chosen("LODESTIR_CACHE", (folder / "mine").c_str());

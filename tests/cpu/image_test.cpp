@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Image files: round trips, rounding, windows, and what must be refused.
+#include "png_bytes.h"
+
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/image/color_map.h>
@@ -138,11 +140,69 @@ TEST_F(Images, ExrChannelsGoByName) {
     };
     EXPECT_EQ(order({"A", "B", "G", "R"}), "R G B A ");
     EXPECT_EQ(order({"B", "G", "R", "Z", "normal.X"}), "R G B ");
+    EXPECT_EQ(order({"b", "g", "r"}), "r g b ");
+    EXPECT_EQ(order({"Blue", "Green", "Red", "ALPHA"}), "Red Green Blue ALPHA ");
+    EXPECT_EQ(order({"L.Combined.A", "L.Combined.B", "L.Combined.G", "L.Combined.R", "L.Depth.Z"}),
+              "L.Combined.R L.Combined.G L.Combined.B L.Combined.A ");
+    EXPECT_EQ(order({"beauty.blue", "beauty.green", "beauty.red"}), "beauty.red beauty.green beauty.blue ");
+    EXPECT_EQ(order({"albedo.B", "albedo.G", "albedo.R", "B", "G", "R"}), "R G B ") << "the layer without a name is the image";
+    EXPECT_EQ(order({"V.AO.B", "V.AO.G", "V.AO.R", "V.Combined.B", "V.Combined.G", "V.Combined.R"}),
+              "V.Combined.R V.Combined.G V.Combined.B ")
+        << "its name says so";
+    EXPECT_EQ(order({"Z", "albedo.B", "albedo.G", "albedo.R"}), "albedo.R albedo.G albedo.B ") << "the only one that is colour";
+    EXPECT_EQ(order({"a.B", "a.G", "a.R", "b.B", "b.G", "b.R"}), "a.R a.G a.B ") << "else the first";
+    EXPECT_EQ(order({"N.Z", "N.Y", "N.X"}), "N.X N.Y N.Z ") << "Y beside X is no grey";
+    EXPECT_EQ(order({"U.Y", "U.Z"}), "U.Y ");
+    EXPECT_EQ(order({"Z"}), "Z ");
+    EXPECT_EQ(order({"V", "U", "A"}), "U V A ") << "no colour at all: as they come";
     EXPECT_EQ(order({"Y"}), "Y ");
     EXPECT_EQ(order({"A", "Y"}), "Y A ");
     EXPECT_EQ(order({"Z", "X", "Y"}), "X Y Z ");
     EXPECT_NE(refusal([&] { writeExr(folder / "n.exr", makeImage(1, 1, 3), {.channels = {"R"}}); }), "");
     EXPECT_NE(refusal([&] { writeExr(folder / "n.exr", makeImage(1, 1, 5)); }), "");
+}
+
+// If this fails, a difference in red is taken for one in opacity, and not compared.
+TEST_F(Images, ExrOnlyAlphaIsOpacity) {
+    const auto hasOpacity = [&](std::vector<std::string> names) {
+        writeExr(folder / "n.exr", makeImage(2, 1, static_cast<int>(names.size())), {.channels = names});
+        const ImageData image = readExr(folder / "n.exr");
+        EXPECT_EQ(image.channels, static_cast<int>(names.size()));
+        EXPECT_EQ(withoutOpacity(image).channels, image.channels - (image.hasOpacity ? 1 : 0));
+        return image.hasOpacity;
+    };
+    EXPECT_TRUE(hasOpacity({"x.A", "x.B", "x.G", "x.R"}));
+    EXPECT_TRUE(hasOpacity({"y", "alpha"}));
+    EXPECT_FALSE(hasOpacity({"R", "G", "B"}));
+    EXPECT_FALSE(hasOpacity({"R", "G"})) << "motion";
+    EXPECT_FALSE(hasOpacity({"0", "1", "2", "3"}));
+    ImageData grey = makeImage(2, 1, 2);
+    grey.hasOpacity = true;
+    writeExr(folder / "n.exr", grey);
+    EXPECT_EQ(readExrFile(folder / "n.exr").channels, (std::vector<std::string>{"Y", "A"}));
+    EXPECT_TRUE(readExr(folder / "n.exr").hasOpacity);
+}
+
+TEST_F(Images, ExrSaysWhichLayerItTakes) {
+    const auto said = [&](std::vector<std::string> names) {
+        writeExr(folder / "n.exr", makeImage(1, 1, static_cast<int>(names.size())), {.channels = names});
+        testing::internal::CaptureStderr();
+        readExr(folder / "n.exr");
+        return testing::internal::GetCapturedStderr();
+    };
+    const std::string start = (folder / "n.exr").string() + ": ";
+    EXPECT_EQ(said({"a.B", "a.G", "a.R", "b.B", "b.G", "b.R"}), start + "takes \"a\" of 2 layers; the others: b\n");
+    EXPECT_EQ(said({"B", "G", "R", "b.B", "b.G", "b.R"}), start + "takes the unnamed one of 2 layers; the others: b\n");
+    EXPECT_EQ(said({"B", "G", "R", "Z", "n.X", "n.Y", "n.Z"}), "");
+    EXPECT_EQ(said({"Z"}), "");
+    EXPECT_NE(said({"id", "depth"}).find("none of its channels is known as colour; they are taken in the order depth, id"),
+              std::string::npos);
+}
+
+TEST_F(Images, ExrChannelsAskedForAreThose) {
+    writeExr(folder / "n.exr", {1, 1, 4, {1, 2, 3, 4}}, {.channels = {"R", "G", "B", "square"}});
+    EXPECT_EQ(readExrChannels(folder / "n.exr", {"square", "R"}).image.values, (std::vector<float>{4, 1}));
+    EXPECT_NE(refusal([&] { readExrChannels(folder / "n.exr", {"A"}); }).find("has no channel \"A\""), std::string::npos);
 }
 
 /// A frame buffer of one channel whose pixel (x, y) is x + 100 y, in any window.
@@ -218,6 +278,32 @@ TEST_F(Images, ExrReadsTilesIntegersAndTheFirstPart) {
     EXPECT_EQ(readExr(folder / "m.exr").values, ramp.values);
     EXPECT_EQ(readExrFile(folder / "m.exr").channels, std::vector<std::string>{"R"});
 
+    // The part that is the image need not be the first.
+    const auto chosen = [&](std::vector<std::pair<const char*, const char*>> namesAndChannels) {
+        std::vector<Imf::Header> headers;
+        for (const auto& [name, channel] : namesAndChannels) {
+            headers.emplace_back(70, 45);
+            headers.back().channels().insert(channel, Imf::Channel(Imf::FLOAT));
+            headers.back().setName(name);
+            headers.back().setType(Imf::SCANLINEIMAGE);
+        }
+        {
+            Imf::MultiPartOutputFile file((folder / "p.exr").c_str(), headers.data(), static_cast<int>(headers.size()));
+            for (std::size_t i = 0; i < headers.size(); ++i) {
+                Ramp values(window, namesAndChannels[i].second);
+                for (float& value : values.values) value += static_cast<float>(i) * 10000;
+                Imf::OutputPart part(file, static_cast<int>(i));
+                part.setFrameBuffer(values.buffer);
+                part.writePixels(45);
+            }
+        }
+        return readExr(folder / "p.exr").values[0] / 10000;
+    };
+    EXPECT_EQ(chosen({{"depth", "Z"}, {"albedo", "Y"}}), 1);
+    EXPECT_EQ(chosen({{"albedo", "Y"}, {"beauty.left", "Y"}}), 1);
+    EXPECT_EQ(chosen({{"albedo", "Y"}, {"shadow", "shadow.Y"}}), 0);
+    EXPECT_EQ(chosen({{"depth", "Z"}, {"id", "id"}}), 0);
+
     unsigned numbers[] = {0, 1, 70000, 4000000000u};
     Imf::Header integers(4, 1);
     integers.channels().insert("id", Imf::Channel(Imf::UINT));
@@ -243,6 +329,41 @@ TEST_F(Images, ExrLuminanceAndChromaBecomeColour) {
     for (std::size_t i = 0; i < read.image.values.size(); ++i) {
         ASSERT_NEAR(read.image.values[i], 0.5 / (1 << i % 3), 0.005) << i;  // luminance and chroma are rounded to halves
     }
+}
+
+// OpenEXR's own writer of a layer of luminance and chroma: R, G, B must come back under any name of the layer.
+TEST_F(Images, ExrLuminanceAndChromaOfALayerBecomeColour) {
+    std::vector<Imf::Rgba> pixels(32 * 16, Imf::Rgba(half(0.5f), half(0.25f), half(0.125f)));
+    {
+        Imf::RgbaOutputFile file((folder / "yc.exr").c_str(), 32, 16, Imf::WRITE_YCA);
+        file.setFrameBuffer(pixels.data(), 1, 32);
+        file.writePixels(16);
+    }
+    Imf::InputFile plain((folder / "yc.exr").c_str());
+    Imf::Header header(32, 16);
+    std::vector<half> values[4];
+    const char* names[] = {"Y", "RY", "BY", "A"};
+    Imf::FrameBuffer in, out;
+    for (int i = 0; i < 4; ++i) {
+        const int step = i == 1 || i == 2 ? 2 : 1, width = 32 / step;
+        values[i].resize(static_cast<std::size_t>(width * 16 / step));
+        const Imf::Slice slice(Imf::HALF, reinterpret_cast<char*>(values[i].data()), sizeof(half),
+                               sizeof(half) * static_cast<std::size_t>(width), step, step);
+        in.insert(names[i], slice);
+        out.insert(std::string("beauty.") + names[i], slice);
+        header.channels().insert(std::string("beauty.") + names[i], Imf::Channel(Imf::HALF, step, step));
+    }
+    plain.setFrameBuffer(in);
+    plain.readPixels(0, 15);
+    {
+        Imf::OutputFile file((folder / "layer.exr").c_str(), header);
+        file.setFrameBuffer(out);
+        file.writePixels(16);
+    }
+    const ImageData expected = readExr(folder / "yc.exr"), read = readExr(folder / "layer.exr");
+    EXPECT_EQ(read.channels, 4);
+    EXPECT_TRUE(read.hasOpacity);
+    EXPECT_EQ(read.values, expected.values);
 }
 
 // If this fails, a study that was stopped while writing goes on with half an image.
@@ -283,6 +404,34 @@ TEST_F(Images, ExrOfAbsurdSizeIsRefusedBeforeMemoryIsTaken) {
     EXPECT_NE(refusal([&] { checkImageSize("f", 1 << 16, 1 << 16, 3); }).find("65536 x 65536"), std::string::npos);
     EXPECT_EQ(refusal([&] { checkImageSize("f", 16384, 8192, 4); }), "");
     EXPECT_NE(refusal([&] { checkImageSize("f", 0, 8, 4); }), "");
+}
+
+// OpenEXR would take the memory first: found by the fuzzer, as an attribute of 1.9 GB in a file of a kilobyte.
+TEST_F(Images, ExrWithAnAttributeOfAbsurdSizeIsRefused) {
+    writeExr(folder / "a.exr", noise(4, 3, 3), {.attributes = {{"note", "abcd"}}});
+    const std::string whole = readText(folder / "a.exr");
+    const auto tell = [&](std::string_view before, std::string_view value) {
+        std::string damaged = whole;
+        damaged.replace(damaged.find(before) + before.size(), value.size(), value);
+        writeFile(folder / "d.exr", damaged);
+        return refusal([&] { readExr(folder / "d.exr"); });
+    };
+    using namespace std::string_view_literals;
+    EXPECT_NE(tell("note\0string\0"sv, "\0\0\0\x70"sv).find("its attribute \"note\" leaves the file"), std::string::npos);
+    EXPECT_NE(tell("lineOrder\0lineOrder\0"sv, "\x02"sv).find("its attribute \"lineOrder\" has a wrong size"), std::string::npos);
+    EXPECT_NE(tell("channels\0chlist\0"sv, "\x20"sv).find("its attribute \"channels\" has a wrong size"), std::string::npos);
+    const auto tellOf = [&](std::string_view type, std::string_view value) {
+        std::string file("\x76\x2f\x31\x01\x02\0\0\0any\0"sv);
+        file += std::string(type) + '\0' + static_cast<char>(value.size()) + std::string(3, '\0') + std::string(value);
+        writeFile(folder / "d.exr", file);
+        return refusal([&] { readExr(folder / "d.exr"); });
+    };
+    for (const auto& [type, value] :
+         {std::pair("stringvector"sv, "\0\0\0\x70"sv), {"preview"sv, "\0\x40\0\0\0\x40\0\0"sv}, {"m44f"sv, "1"sv}})
+        EXPECT_NE(tellOf(type, value).find("its attribute \"any\" has a wrong size"), std::string::npos)
+            << type << ": " << tellOf(type, value);
+    EXPECT_NE(tellOf("stringvector", "\1\0\0\0a"sv).find("it ends too early"), std::string::npos)
+        << "this one is whole, what follows isn't there";
 }
 
 // Files far smaller than what they claim are read on trial first. If this fails, that trial spoils or refuses images that are only smooth.
@@ -431,6 +580,59 @@ TEST_F(Images, PngReadsSixteenBits) {
     EXPECT_FLOAT_EQ(image.at(0, 0, 0), decodeSrgb(32769.0f / 65535.0f));
 }
 
+// Every kind of PNG but interlaced ones, by hand.
+TEST_F(Images, PngOfEveryKindHasItsValues) {
+    const auto read = [&](std::vector<std::pair<std::string, std::string>> chunks) {
+        writeFile(folder / "a.png", pngFile(std::move(chunks)));
+        return readPng(folder / "a.png");
+    };
+    const auto linear = [](int value, int top) { return decodeSrgb(static_cast<float>(value) / static_cast<float>(top)); };
+    const auto zeros = [](std::initializer_list<unsigned> bytes) { return std::string(bytes.begin(), bytes.end()); };
+
+    ImageData image = read({{"IHDR", pngHeader(1, 8, 4)}, {"IDAT", stored(zeros({0, 51, 102}))}});
+    EXPECT_EQ(image.values, (std::vector<float>{linear(51, 255), 0.4f})) << "grey and opacity";
+    EXPECT_TRUE(image.hasOpacity);
+    image = read({{"IHDR", pngHeader(1, 16, 2)}, {"IDAT", stored(zeros({0, 1, 2, 3, 4, 5, 6}))}});
+    EXPECT_EQ(image.values, (std::vector<float>{linear(0x102, 65535), linear(0x304, 65535), linear(0x506, 65535)}));
+    EXPECT_FALSE(image.hasOpacity);
+    image = read({{"IHDR", pngHeader(1, 16, 6)}, {"IDAT", stored(zeros({0, 1, 2, 3, 4, 5, 6, 7, 8}))}});
+    EXPECT_EQ(image.values, (std::vector<float>{linear(0x102, 65535), linear(0x304, 65535), linear(0x506, 65535), 0x708 / 65535.0f}));
+    image = read({{"IHDR", pngHeader(2, 4, 3)}, {"PLTE", zeros({10, 20, 30, 40, 50, 60})}, {"IDAT", stored(zeros({0, 0x10}))}});
+    EXPECT_EQ(image.values,
+              (std::vector<float>{linear(40, 255), linear(50, 255), linear(60, 255), linear(10, 255), linear(20, 255), linear(30, 255)}))
+        << "a palette";
+    EXPECT_FALSE(image.hasOpacity);
+    image = read({{"IHDR", pngHeader(2, 8, 3)},
+                  {"PLTE", zeros({10, 20, 30, 40, 50, 60})},
+                  {"tRNS", zeros({51})},
+                  {"IDAT", stored(zeros({0, 0, 1}))}});
+    ASSERT_EQ(image.channels, 4) << "a palette with opacities";
+    EXPECT_TRUE(image.hasOpacity);
+    EXPECT_EQ(image.at(0, 0, 3), 0.2f);
+    EXPECT_EQ(image.at(1, 0, 3), 1);
+    image = read({{"IHDR", pngHeader(2, 8, 0)}, {"tRNS", zeros({0, 51})}, {"IDAT", stored(zeros({0, 51, 102}))}});
+    EXPECT_EQ(image.values, (std::vector<float>{linear(51, 255), 0, linear(102, 255), 1})) << "a grey that is transparent";
+    image = read({{"IHDR", pngHeader(8, 1, 0)}, {"IDAT", stored(zeros({0, 0xA0}))}});
+    EXPECT_EQ(image.values, (std::vector<float>{1, 0, 1, 0, 0, 0, 0, 0})) << "bits";
+}
+
+TEST_F(Images, PngWithAnotherCurveSaysSo) {
+    const auto tell = [&](std::uint32_t gamma, bool srgb) {
+        std::string word;
+        for (int shift = 24; shift >= 0; shift -= 8) word += static_cast<char>(gamma >> shift);
+        std::vector<std::pair<std::string, std::string>> chunks{{"IHDR", pngHeader(1, 8, 0)}, {"gAMA", word}};
+        if (srgb) chunks.emplace_back("sRGB", std::string(1, 0));
+        chunks.emplace_back("IDAT", stored({0, 51}));
+        writeFile(folder / "a.png", pngFile(std::move(chunks)));
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(readPng(folder / "a.png").at(0, 0, 0), decodeSrgb(0.2f));
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(tell(45455, false), "");
+    EXPECT_NE(tell(100000, false).find("encoded with the exponent 1;"), std::string::npos);
+    EXPECT_EQ(tell(100000, true), "") << "sRGB overrules it";
+}
+
 // If this fails, a damaged image is compared as if it were whole.
 TEST_F(Images, PngCutOrFlippedAnywhereIsRefused) {
     writePng(folder / "a.png", noise(9, 7, 3));
@@ -472,6 +674,50 @@ TEST_F(Images, HdrPixelsHaveTheirValues) {
     EXPECT_EQ(read(hdrFile("-Y 1 +X 8", runs)), repeated(8)) << "runs and a literal sequence by component";
 }
 
+// If this fails, the same picture has two brightnesses (Radiance, File Formats, "Picture": such lines add up).
+TEST_F(Images, HdrExposureIsUndone) {
+    std::string said;
+    const auto read = [&](const std::string& lines) {
+        writeFile(folder / "a.hdr", "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x20\x81");
+        testing::internal::CaptureStderr();
+        std::vector<float> values = readImage(folder / "a.hdr").values;
+        said = testing::internal::GetCapturedStderr();
+        return values;
+    };
+    EXPECT_EQ(read(""), (std::vector<float>{1, 0.5f, 0.25f}));
+    EXPECT_EQ(read("EXPOSURE=1\n"), (std::vector<float>{1, 0.5f, 0.25f}));
+    EXPECT_EQ(read("EXPOSURE=5.0e-1\n"), (std::vector<float>{2, 1, 0.5f}));
+    EXPECT_EQ(read("EXPOSURE=  0.5\nSOFTWARE=x\nEXPOSURE=0.25\n"), (std::vector<float>{8, 4, 2}));
+    EXPECT_EQ(read("COLORCORR=0.5 1 2\nEXPOSURE=0.5\r\n"), (std::vector<float>{4, 1, 0.25f}));
+    EXPECT_EQ(read("\tEXPOSURE=0.5\n# EXPOSURE=0.5\n"), (std::vector<float>{1, 0.5f, 0.25f})) << "of another picture; a comment";
+    EXPECT_EQ(said, "");
+    EXPECT_EQ(read("PIXASPECT=1.0\nPRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333\nGAMMA=1\n").size(), 3u);
+    EXPECT_EQ(said, "");
+    for (const char* odd : {"EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=nan", "EXPOSURE=bright", "EXPOSURE=1e300", "COLORCORR=1 1",
+                            "PIXASPECT=1.5", "PRIMARIES=0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.329", "GAMMA=2.2"}) {
+        EXPECT_EQ(read(odd + std::string("\n")), (std::vector<float>{1, 0.5f, 0.25f})) << odd;
+        EXPECT_NE(said.find(odd), std::string::npos) << odd << ": " << said;
+    }
+}
+
+TEST_F(Images, HdrOfEachOrientationStandsUpright) {
+    // The pixels a b / c d / e f as a file of each orientation has them.
+    const std::pair<const char*, const char*> files[] = {{"-Y 3 +X 2", "abcdef"}, {"+Y 3 +X 2", "efcdab"}, {"-Y 3 -X 2", "badcfe"},
+                                                         {"+Y 3 -X 2", "fedcba"}, {"+X 2 -Y 3", "acebdf"}, {"-X 2 -Y 3", "bdface"},
+                                                         {"+X 2 +Y 3", "ecafdb"}, {"-X 2 +Y 3", "fdbeca"}};
+    for (const auto& [resolution, order] : files) {
+        std::string pixels;
+        for (const char* c = order; *c; ++c) pixels += {*c, *c, *c, '\x88'};
+        writeFile(folder / "a.hdr", hdrFile(resolution, pixels));
+        const ImageData image = readImage(folder / "a.hdr");
+        ASSERT_EQ(image.width, 2) << resolution;
+        ASSERT_EQ(image.height, 3) << resolution;
+        std::string found;
+        for (std::size_t i = 0; i < image.values.size(); i += 3) found += static_cast<char>(image.values[i]);
+        EXPECT_EQ(found, "abcdef") << resolution;
+    }
+}
+
 TEST_F(Images, HdrCutOrDamagedIsRefused) {
     const auto tell = [&](const std::string& content) {
         writeFile(folder / "a.hdr", content);
@@ -487,7 +733,8 @@ TEST_F(Images, HdrCutOrDamagedIsRefused) {
         << "nothing to repeat";
     EXPECT_NE(tell(hdrFile("-Y 60000 +X 60000", "1234")).find("60000 x 60000"), std::string::npos);
     EXPECT_NE(tell(hdrFile("-Y 30000 +X 4000", "1234")), "");
-    EXPECT_NE(tell(hdrFile("+X 1 -Y 1", "1234")).find("resolution"), std::string::npos);
+    for (const char* resolution : {"+X 1 -X 1", "-Y 1", "-Y 1 +Z 1", "Y 1 X 1"})
+        EXPECT_NE(tell(hdrFile(resolution, "1234")).find("resolution"), std::string::npos) << resolution;
     EXPECT_NE(tell("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n1234").find("xyze"), std::string::npos);
 }
 

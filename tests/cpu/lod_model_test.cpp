@@ -116,6 +116,18 @@ TEST_F(LodCommand, NodesShareLevelsAndKeepTheirPlaces) {
     EXPECT_EQ(readGltfFile(out()).model.nodes[1].extras.Get("kept").GetNumberAsInt(), 5);
 }
 
+// If this fails, a model that is shown without an image gets no levels because of it.
+TEST_F(LodCommand, AnImageThatIsMissingStaysAName) {
+    addHills();
+    model.json["images"] = {{{"uri", "no%20such.png"}}};
+    model.json["textures"] = {{{"source", 0}}};
+    model.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    const LodModel made = buildLodModel(model.write(folder / "model.gltf"), {});
+    EXPECT_TRUE(std::ranges::any_of(made.notes, [](const std::string& note) { return note.starts_with("image 0 stays a name: file"); }));
+    writeFile(folder / "made.glb", made.glb);
+    EXPECT_EQ(readGltfFile(folder / "made.glb").json.find("images")->items()[0].find("uri")->asString(), "no%20such.png");
+}
+
 // If this fails, a model loses something on its way.
 TEST_F(LodCommand, AllElseStays) {
     addHills();

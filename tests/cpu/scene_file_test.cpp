@@ -48,6 +48,20 @@ TEST(SceneFile, PlacesInstancesAndSharesMeshes) {
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) EXPECT_TRUE(scene.nodes[i].parent == none || scene.nodes[i].parent < i);
 }
 
+// If this fails, scenes that were written on Windows find neither models nor environment.
+TEST(SceneFile, PathsMayHaveBackslashes) {
+    GltfModel model;
+    model.addTriangle();
+    model.write(folder() / "parts" / "leaf.gltf");
+    writeFile(folder() / "parts/sky.hdr",
+              std::string_view("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x80\x80\x80\x80\x80"));
+    writeFile(folder() / "scene.json", std::string_view(R"({"format": 1, "models": {"leaf": {"file": "parts\\leaf.gltf"}},
+        "environment": {"type": "map", "file": ".\\parts\\sky.hdr"}})"));
+    const Scene scene = loadScene(folder() / "scene.json");
+    EXPECT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.environment.width, 2);
+}
+
 // If this fails, a shoe comes in one colour only, or a typing mistake in its name in a colour that nobody asked for.
 TEST(SceneFile, ChoosesMaterialVariants) {
     GltfModel model;

@@ -53,6 +53,13 @@ protected:
       "mask": "switched", "metrics": ["mse"], "charts": ["error_vs_time"] })";
 };
 
+TEST_F(StudyTest, PathsMayHaveBackslashes) {
+    writeFile(folder / "scenes/far.json", std::string_view("{}"));
+    std::string text = good;
+    text.replace(text.find("hall.json"), 9, R"(scenes\\far.json)");
+    EXPECT_EQ(loadStudy(write(text)).scenes[1].file, folder / "scenes/far.json");
+}
+
 TEST_F(StudyTest, ReadsTheContract) {
     const Study study = loadStudy(write(good));
     ASSERT_EQ(study.scenes.size(), 2u);
