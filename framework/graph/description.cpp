@@ -2,6 +2,8 @@
 // Reads graph files: applies a variant and the command line's overrides to the JSON, then checks its form.
 #include <framework/graph/description.h>
 
+#include <framework/core/file_kind.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -290,6 +292,11 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     return description;
 }
 
-Description loadDescription(const Path& file, const GraphOptions& options) { return readDescription(Json::load(file), file, options); }
+Description loadDescription(const Path& file, const GraphOptions& options) {
+    expectNoModel(file, FileKind::graph);
+    Json source = Json::load(file);
+    expectKind(source, FileKind::graph);
+    return readDescription(std::move(source), file, options);
+}
 
 }  // namespace lodestir
