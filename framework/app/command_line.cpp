@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/command_line.h>
 
+#include <framework/core/error.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -33,6 +35,11 @@ CommandOption& CommandOption::list(int count) {
     option_->delimiter(',');
     if (count > 0) option_->expected(count);
     option_->allow_extra_args(false);  // what follows may be a file
+    return *this;
+}
+
+CommandOption& CommandOption::trimmed() {
+    option_->transform([](const std::string& text) { return CLI::detail::trim_copy(text); });
     return *this;
 }
 
@@ -91,6 +98,20 @@ void Command::footer(const std::string& text) { app_->footer(text); }
 
 void Command::does(std::function<int()>& run, const std::function<int()>& work) {
     app_->callback([&run, work] { run = work; });
+}
+
+std::string unexpectedArguments(const CLI::App& app) {
+    const std::vector<CLI::App*> commands = app.get_subcommands();
+    const CLI::App& chosen = commands.empty() ? app : *commands.front();
+    const std::vector<std::string> extra = chosen.remaining();
+    if (extra.empty()) return {};
+    const std::string who = &chosen == &app ? "lodestir" : "lodestir " + chosen.get_name();
+    if (extra.front().size() < 2 || extra.front().front() != '-') return who + ": \"" + extra.front() + "\" is one argument too many";
+    std::vector<std::string> known;
+    for (const CLI::Option* option : chosen.get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    const std::string name = extra.front().substr(0, extra.front().find('='));
+    return who + ": no option \"" + name + "\"; " + didYouMean(name, known);
 }
 
 void refuseOption(const std::string& name, const std::string& problem) { throw CLI::ValidationError(name, problem); }

@@ -22,6 +22,7 @@ public:
     CommandOption& showDefault();                 ///< the value that the variable has now, in the help
     CommandOption& repeatable();                  ///< given several times, with one value each
     CommandOption& list(int count = 0);           ///< values separated by commas, as many as that; 0: one or more
+    CommandOption& trimmed();                     ///< spaces around a value don't count
     CommandOption& within(int least, int most);
     CommandOption& oneOf(std::initializer_list<int> values);
     CommandOption& check(std::function<std::string(const std::string& value)> problem);  ///< what is wrong with a value; empty: nothing
@@ -51,6 +52,9 @@ public:
 private:
     CLI::App* app_;
 };
+
+/// What to say of arguments that no option takes; empty where there are none.
+std::string unexpectedArguments(const CLI::App& app);
 
 /// Wrong use that is only found when a command looks closer: CLI::ValidationError.
 [[noreturn]] void refuseOption(const std::string& name, const std::string& problem);

@@ -63,8 +63,22 @@ void writeMap(const CompareArguments& arguments, ImageData map) {
     }
 }
 
-MetricOptions optionsFor(const CompareArguments& arguments, const ImageData& reference) {
-    MetricOptions options{.exposure = arguments.exposure > 0 ? arguments.exposure : exposureOf(reference)};
+/// Two metrics have the name FLIP, and numbers of one mean nothing beside those of the other.
+void noteFlip(const MetricOptions& options) {
+    const double pixels = options.flip.pixelsPerDegree;
+    if (options.displayed) {
+        log::note("flip: LDR-FLIP of pictures as displayed, {:.4g} pixels per degree", pixels);
+    } else {
+        const FlipExposures& e = *options.flip.exposures;
+        log::note("flip: HDR-FLIP of radiance, {} exposures from {:+.2f} to {:+.2f} stops, {:.4g} pixels per degree", e.count, e.start,
+                  e.stop, pixels);
+    }
+}
+
+/// `displayed`: neither image holds radiance.
+MetricOptions optionsFor(const CompareArguments& arguments, const ImageData& reference, bool displayed) {
+    MetricOptions options{.exposure = arguments.exposure > 0 ? arguments.exposure : exposureOf(reference),
+                          .displayed = displayed && arguments.flipExposures.empty()};
     if (const auto& flip = arguments.flipExposures; !flip.empty()) {
         constexpr int most = 1000;  // more than there are stops between the darkest and the brightest float
         if (!(flip[2] >= 1 && flip[2] <= most && flip[2] == std::floor(flip[2])))
@@ -73,6 +87,8 @@ MetricOptions optionsFor(const CompareArguments& arguments, const ImageData& ref
     } else {
         options.flip.exposures = flipExposures(reference);
     }
+    if (std::ranges::any_of(arguments.metrics, [](const std::string& name) { return name == "flip" || name == "tflip"; }))
+        noteFlip(options);
     return options;
 }
 
@@ -87,7 +103,7 @@ std::map<std::string, double> compareImages(const CompareArguments& arguments) {
     if (const auto temporal = chosen(arguments.metrics, true); !temporal.empty())
         throw Error("\"" + temporal.front() + "\" needs two frames in a row", "name a sequence: out/display.%d.exr");
     const ImageData test = readColor(arguments.test), reference = readColor(arguments.reference);
-    const MetricOptions options = optionsFor(arguments, reference);
+    const MetricOptions options = optionsFor(arguments, reference, isDisplayed(arguments.test) && isDisplayed(arguments.reference));
     if (!arguments.map.empty()) writeMap(arguments, errorMap(arguments.metrics.front(), test, reference, options));
     return evaluateAll(arguments.metrics, test, reference, options);
 }
@@ -120,7 +136,7 @@ std::map<std::string, double> compareSequences(const CompareArguments& arguments
     int before = 0, steps = 0;
     for (const auto& [number, file] : tests) {
         ImageData test = readColor(file), reference = readColor(references.at(number));
-        if (!options) options = optionsFor(arguments, reference);
+        if (!options) options = optionsFor(arguments, reference, isDisplayed(file) && isDisplayed(references.at(number)));
         for (const auto& [name, value] : evaluateAll(still, test, reference, *options)) sums[name] += value / double(tests.size());
         if (!testBefore.values.empty() && before + 1 == number) {
             ++steps;
@@ -139,6 +155,9 @@ std::map<std::string, double> compareSequences(const CompareArguments& arguments
 
 int compare(CompareArguments arguments) {
     const bool sequence = isSequence(arguments.test);
+    for (const std::string& input : {arguments.test, arguments.reference})
+        if (!arguments.map.empty() && isSameFile(arguments.map, input))
+            throw Error(Where{arguments.map}, "--map would write over an image that is compared", "name another file");
     if (!sequence && (isSequence(arguments.reference) || !arguments.motion.empty()))
         throw Error(Where{arguments.test}, "is one image, to be compared with one image", "a sequence is named by %d: out/display.%d.exr");
     if (arguments.metrics.empty()) {
@@ -169,7 +188,9 @@ std::string metricHelp() {
 void addCompare(CLI::App& app, std::function<int()>& run) {
     const auto arguments = std::make_shared<CompareArguments>();
     Command command(app, "compare", "error metrics of two images or sequences of images");
-    command.option("TEST", arguments->test, "image to judge (.exr, .png, .hdr; opacity is left out), or a sequence: out/display.%d.exr").required();
+    command
+        .option("TEST", arguments->test, "image to judge (.exr, .png, .jpg, .hdr; opacity is left out), or a sequence: out/display.%d.exr")
+        .required();
     command.option("REFERENCE", arguments->reference, "image to judge it by, or a sequence").required();
     std::vector<std::string> known = metricNames();
     std::ranges::copy(temporalMetricNames(), std::back_inserter(known));

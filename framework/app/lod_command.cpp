@@ -20,7 +20,7 @@ namespace {
 struct LodArguments {
     std::string model, out, device, rays;
     LodModelOptions options;
-    bool json = false;
+    bool json = false, force = false;
 };
 
 Json count(std::size_t value) { return Json(static_cast<std::int64_t>(value)); }
@@ -46,6 +46,7 @@ Json toJson(const LodMeshFacts& facts) {
         level["error"] = Json(double(made.error));
         level["toFinest"] = Json(double(made.measured.toFinest));
         level["fromFinest"] = Json(double(made.measured.fromFinest));
+        level["appearance"] = Json(double(made.measured.appearance));
         if (facts.chain.hasUvs) {
             level["uv"]["mean"] = Json(double(made.measured.uvMean));
             level["uv"]["p99"] = Json(double(made.measured.uv99));
@@ -91,6 +92,8 @@ void print(const LodArguments& arguments, const LodModel& model) {
 }
 
 int buildLevels(const LodArguments& arguments) {
+    if (!arguments.force && isSameFile(arguments.out, arguments.model))
+        throw Error(Where{arguments.out}, "--out is the model itself", "name another file, or write over it with --force");
     const LodModel model = buildLodModel(arguments.model, arguments.options);
     writeFile(arguments.out, std::span(model.glb));
     if (arguments.json)
@@ -116,11 +119,14 @@ void addLod(CLI::App& app, std::function<int()>& run) {
     command.option("--ratio", arguments->options.chain.ratio, "triangles of a level over those of the next: 2 or 4 (2)")
         .oneOf({2, 4});
     command.option("--mesh", arguments->options.meshes, "only meshes of this name").repeatable();
+    command.flag("--force", arguments->force, "write over the model itself where --out names it");
     command.flag("--json", arguments->json, "facts as JSON");
     command.option("--device", arguments->device, "accepted everywhere; not used here");
     command.option("--rays", arguments->rays, "accepted everywhere; not used here");
     command.footer(
-        "Error: how far a level is from the finest one, both ways, in units of the mesh (sampled). Coverage: share of the screen.");
+        "Error: how far a level is from the finest one, both ways, in units of the mesh (sampled). Normals, UVs and colours count\n"
+        "as lengths: of the diagonal of the mesh, a 32nd for a difference of 1 between colours, a 256th for one of 1 between\n"
+        "normals. Coverage: share of the screen.");
     command.does(run, [arguments] { return buildLevels(*arguments); });
 }
 

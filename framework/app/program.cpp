@@ -2,6 +2,7 @@
 #include <framework/app/program.h>
 
 #include <framework/app/check_command.h>
+#include <framework/app/command_line.h>
 #include <framework/app/compare_command.h>
 #include <framework/app/devices_command.h>
 #include <framework/app/lod_command.h>
@@ -47,6 +48,11 @@ int runProgram(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        const bool wrong = error.get_exit_code() != 0;
+        if (const std::string unexpected = wrong ? unexpectedArguments(app) : ""; !unexpected.empty()) {
+            std::fprintf(stderr, "%s\n", unexpected.c_str());
+            return 2;
+        }
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {

@@ -3,6 +3,7 @@
 
 #include <framework/app/command_line.h>
 #include <framework/app/dump.h>
+#include <framework/app/interrupt.h>
 #include <framework/app/metric_option.h>
 #include <framework/app/run_report.h>
 #include <framework/app/validators.h>
@@ -13,6 +14,7 @@
 #include <framework/image/png.h>
 #include <framework/image/preview.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
@@ -57,6 +59,26 @@ void warnOfSameSeed(const Path& reference, std::uint32_t seed) {
         log::warn("{}: rendered with the same seed ({}), so it shares this image's noise and errors come out too small; give another --seed", reference.string(), seed);
 }
 
+/// Is it what a run writes of a frame: SHOWN.12.exr or .png?
+bool isFrameOf(const std::string& shown, const Path& file) {
+    const std::string name = file.stem().string();
+    const bool isImage = file.extension() == ".exr" || file.extension() == ".png";
+    return isImage && name.size() > shown.size() + 1 && name.starts_with(shown + ".") &&
+           name.find_first_not_of("0123456789", shown.size() + 1) == name.npos;
+}
+
+/// Refuses to write over what is read.
+void keepInputs(const RunOptions& options, const Description& description, const std::string& shown) {
+    for (const Path& input : {options.session.graph, description.scene, options.reference}) {
+        if (input.empty()) continue;
+        const Path folder = input.has_parent_path() ? input.parent_path() : Path(".");
+        if (isSameFile(input, options.out / "run.json") || (!options.trace.empty() && isSameFile(input, options.trace)) ||
+            (isFrameOf(shown, input) && isSameFile(folder, options.out)))
+            throw Error(Where{input.string()}, "would be written over by what the run writes",
+                        "name another folder with --out, or another file");
+    }
+}
+
 int runGraph(const RunOptions& options) {
     if (options.out.empty()) throw Error("--out names no folder");
     const auto start = std::chrono::steady_clock::now();
@@ -67,6 +89,7 @@ int runGraph(const RunOptions& options) {
     if (!options.reference.empty()) reference = std::make_unique<ImageData>(withoutOpacity(readImage(options.reference)));
     const std::string shown = graph.nameOf(graph.show), resolved = graph.resolved().dump(-1);
     const std::string shownName = graph.description.showPort.empty() ? graph.description.showNode : shown;
+    keepInputs(options, graph.description, shownName);
     const bool shownIsImage = graph.port(graph.show).type.kind == PortType::Kind::image;
     if (!shownIsImage && (reference || options.checkNan))
         throw Error(graph.description.showWhere, "the shown port " + shown + " is no image", "--reference and --check-nan need one; see --show");
@@ -79,12 +102,15 @@ int runGraph(const RunOptions& options) {
     const int count = graph.description.count;
     double setup = 0;
     log::Progress progress("rendering", std::size_t(count));
-    for (int i = 0; i < count; ++i, progress.advance()) {
+    const InterruptWatch interrupt;
+    bool stop = false;
+    for (int i = 0; i < count && !stop; ++i, progress.advance()) {
         const FrameReport report = runner.run();
+        stop = interrupt.signal() != 0;
         if (i == 0) setup = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() - report.milliseconds;
         std::map<std::string, double> metrics;
         const std::string suffix = "." + std::to_string(report.frame);
-        const bool write = !options.lastOnly || i + 1 == count;
+        const bool write = !options.lastOnly || i + 1 == count || stop;
         if (shownIsImage && (write || reference || options.checkNan)) {
             const ImageData image = runner.readImage(graph.show);
             if (options.checkNan) requireFinite(image, shown);
@@ -105,9 +131,15 @@ int runGraph(const RunOptions& options) {
     }
     if (!options.trace.empty()) writeFile(options.trace, traceJson(reports, session.device().facts().name).dump() + "\n");
     nlohmann::ordered_json json = runJson(session, setup);
+    const std::size_t done = frames.size();
+    const bool interrupted = done < std::size_t(count);
+    if (interrupted) json["interrupted"] = interrupt.name();
     json["frames"] = std::move(frames);
     writeFile(options.out / "run.json", json.dump(2) + "\n");
     if (options.json) std::printf("%s\n", json.dump(2).c_str());
+    if (interrupted)
+        throw Error(fmt::format("interrupted by {} after {} of {} frames, which are whole: {}", interrupt.name(), done, count,
+                                options.out.string()));
     if (!session.device().validationMessages().empty())
         throw Error(std::to_string(session.device().validationMessages().size()) + " validation messages; the first: " + session.device().validationMessages()[0]);
     log::note("{} frames of {}x{} on {} ({}): {}", count, runner.size().x, runner.size().y, session.device().facts().name, nameOf(session.rays()), options.out.string());

@@ -55,7 +55,7 @@ Facts gather(const Scene& scene) {
             facts.geometryBytes += bytesOf(level);
         }
         facts.uniqueTriangles += m.triangles[0];
-        const auto glows = [&](std::uint32_t material) { return scene.materials[material].emission != glm::vec3(0); };
+        const auto glows = [&](std::uint32_t material) { return scene.materials[material].isLight(); };
         emissive.push_back(
             static_cast<std::size_t>(std::count_if(mesh.levels[0].materials.begin(), mesh.levels[0].materials.end(), glows)));
     }

@@ -2,6 +2,7 @@
 #include <framework/app/study_command.h>
 
 #include <framework/app/command_line.h>
+#include <framework/app/interrupt.h>
 #include <framework/app/run_report.h>
 #include <framework/app/validators.h>
 #include <framework/core/log.h>
@@ -93,6 +94,8 @@ std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun&
                 continue;
             }
             row.metrics[measure.name()] = measureError(measure.metric, frames[i].image, reference, how);
+            if (const double deviation = referenceDeviation(measure.metric, reference, how); deviation > 0)
+                row.deviation[measure.name()] = deviation;
             if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, reference, how);
         }
         rows.push_back(std::move(row));
@@ -108,13 +111,20 @@ void noteRest(std::size_t foreign, std::size_t missing, const char* what, const 
     log::note("{}", (out / "report.html").string());
 }
 
-int runEnsembleStudy(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard) {
-    const EnsembleSummary summary = runEnsemble(stage, study, out, file, shard);
+/// Rows and report of what was done are there; the rest is not.
+void endInterrupted(const InterruptWatch& interrupt) {
+    if (interrupt.signal() != 0) throw Error(std::string("interrupted by ") + interrupt.name(), "go on with --resume");
+}
+
+int runEnsembleStudy(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard,
+                     const InterruptWatch& interrupt) {
+    const EnsembleSummary summary = runEnsemble(stage, study, out, file, shard, [&] { return interrupt.signal() != 0; });
     std::printf("%s", ensembleText(study, summary).c_str());
     for (const EnsembleCell& cell : summary.cells)
         if (cell.complete && study.techniques[cell.technique].planted && cell.result.verdict != Verdict::biased)
             log::warn("{}: the planted fault \"{}\" goes unnoticed", study.scenes[cell.scene].name, labelOf(study, cell));
     noteRest(summary.foreign, summary.missing, "chunks of runs", out);
+    endInterrupted(interrupt);
     return summary.failed(study) ? 1 : 0;
 }
 
@@ -127,7 +137,8 @@ int runStudy(const StudyOptions& options) {
         throw Error({file.string(), 0, 0}, "there are results already", "go on with --resume, or name another folder with --out");
     Stage stage(study, options.stage);
     stage.check();
-    if (study.kind == StudyKind::ensemble) return runEnsembleStudy(stage, study, out, file, shard);
+    const InterruptWatch interrupt;
+    if (study.kind == StudyKind::ensemble) return runEnsembleStudy(stage, study, out, file, shard, interrupt);
 
     const std::vector<StudyRun> runs = expandRuns(study);
     std::vector<std::string> names;
@@ -143,6 +154,7 @@ int runStudy(const StudyOptions& options) {
         std::unique_ptr<SceneReferences> references;
         log::Progress progress("runs", todo.size());
         for (const std::size_t i : todo) {
+            if (interrupt.signal() != 0) break;
             if (!references || references->scene != runs[i].scene)
                 references = std::make_unique<SceneReferences>(makeReferences(stage, study, runs[i].scene, out / "references"));
             results.add(measure(stage, study, runs[i], names[i], *references));
@@ -153,6 +165,7 @@ int runStudy(const StudyOptions& options) {
     writeFile(out / "report.html", reportHtml(study, summary));
     std::printf("%s", summaryText(study, summary).c_str());
     noteRest(summary.foreign, summary.missing, "runs", out);
+    endInterrupted(interrupt);
     return 0;
 }
 

@@ -180,6 +180,11 @@ std::string readText(const Path& path) { return readWhole<std::string>(path); }
 
 std::vector<std::byte> readBytes(const Path& path) { return readWhole<std::vector<std::byte>>(path); }
 
+bool isSameFile(const Path& a, const Path& b) {
+    std::error_code absent;
+    return std::filesystem::equivalent(a, b, absent);
+}
+
 void writeAside(const Path& path, const std::function<void(const Path& aside)>& write) {
     const Path target = followed(path);
     if (isDevice(target)) return write(target);

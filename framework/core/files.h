@@ -18,6 +18,8 @@ using Path = std::filesystem::path;
 
 LODESTIR_API std::string readText(const Path& path);                  ///< Error when it cannot be read
 LODESTIR_API std::vector<std::byte> readBytes(const Path& path);      ///< Error when it cannot be read
+/// Do both name one file that is there, whatever the way to it: links, dots, the case of letters where the system ignores it?
+LODESTIR_API bool isSameFile(const Path& a, const Path& b);
 /// Writes beside the target and renames, so that a killed process leaves the old file or none. Makes missing folders. Error with the reason.
 LODESTIR_API void writeFile(const Path& path, std::span<const std::byte> bytes);
 LODESTIR_API void writeFile(const Path& path, std::string_view text);

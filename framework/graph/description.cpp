@@ -3,6 +3,8 @@
 #include <framework/core/is_file.h>
 #include <framework/graph/description.h>
 
+#include <framework/core/file_kind.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -291,6 +293,11 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     return description;
 }
 
-Description loadDescription(const Path& file, const GraphOptions& options) { return readDescription(Json::load(file), file, options); }
+Description loadDescription(const Path& file, const GraphOptions& options) {
+    expectNoModel(file, FileKind::graph);
+    Json source = Json::load(file);
+    expectKind(source, FileKind::graph);
+    return readDescription(std::move(source), file, options);
+}
 
 }  // namespace lodestir

@@ -21,7 +21,10 @@ RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish) {
     if (wish.empty() && canTracePackets(device)) return RayBody::packet;
     if (wish.empty()) return device.rayQuery && device.type != "cpu" ? RayBody::rayQuery : RayBody::lane;
     const auto found = std::ranges::find(rayBodies, wish);
-    if (found == rayBodies.end()) throw Error("no ray body \"" + wish + "\"", "known: packet, lane, ray_query");
+    if (found == rayBodies.end()) {
+        const std::vector<std::string> names(rayBodies.begin(), rayBodies.end());
+        throw Error("no ray body \"" + wish + "\"", didYouMean(wish, names));
+    }
     const auto body = RayBody(found - rayBodies.begin());
     if (body == RayBody::packet && !canTracePackets(device))
         throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name + " with subgroups of " + std::to_string(device.subgroupSize), "use --rays lane");

@@ -8,7 +8,10 @@
 
 namespace lodestir {
 
-/// Reads OpenEXR, PNG or Radiance .hdr, told apart by their first bytes and not by their names.
+/// Whether a file holds a picture as displayed, 8 or 16 bits of sRGB a channel (PNG, JPEG), and no radiance. False where it cannot be read.
+LODESTIR_API bool isDisplayed(const std::filesystem::path& path);
+
+/// Reads OpenEXR, PNG, JPEG or Radiance .hdr, told apart by their first bytes and not by their names.
 /// Throws Error naming the file when it is none of them, or as the reader of its kind does.
 LODESTIR_API ImageData readImage(const std::filesystem::path& path);
 

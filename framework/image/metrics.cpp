@@ -29,6 +29,7 @@ struct Pair {
     double exposure;
     const std::vector<bool>& mask;
     const FlipOptions& viewer;
+    bool displayed;
 
     bool counts(std::size_t pixel) const { return mask.empty() || mask[pixel]; }
     std::size_t channels() const { return static_cast<std::size_t>(test.channels); }
@@ -88,8 +89,10 @@ std::vector<double> relativeDifference(const Pair& pair) {
     return differences;
 }
 
-std::vector<double> flip(const Pair& pair) { return flipHdr(pair.test, pair.reference, pair.viewer); }
 std::vector<double> flipDisplayed(const Pair& pair) { return flipLdr(pair.test, pair.reference, pair.viewer); }
+std::vector<double> flip(const Pair& pair) {
+    return pair.displayed ? flipDisplayed(pair) : flipHdr(pair.test, pair.reference, pair.viewer);
+}
 
 std::vector<double> dissimilarity(const Pair& pair) {
     std::vector<double> errors = ssimMap(Luma(pair.test, pair.exposure), Luma(pair.reference, pair.exposure));
@@ -153,7 +156,7 @@ constexpr Metric table[] = {
     {"flip",
      "mean of HDR-FLIP (Andersson et al. 2021), 0 to 1: each pixel's largest LDR-FLIP error over exposures, ACES-tone-mapped, from that "
      "which shows the brightest pixel of r at 0.85 of white to that which shows the median luminance so (of the pixels above 0 where it is "
-     "0), as many as stops between; 67 pixels per degree",
+     "0), as many as stops between; of pictures as displayed (PNG, JPEG) flip_ldr; 67 pixels per degree",
      flip, mean},
     {"flip_ldr",
      "mean of LDR-FLIP (Andersson et al. 2020), 0 to 1, of the images as displayed (clamped to [0, 1], sRGB-encoded); 67 pixels per degree",
@@ -194,7 +197,7 @@ Pair pairOf(const ImageData& test, const ImageData& reference, const MetricOptio
     if (!options.mask.empty() && options.mask.size() != test.pixelCount())
         throw Error("the mask has " + std::to_string(options.mask.size()) + " pixels, the images " + std::to_string(test.pixelCount()));
     if (!options.mask.empty() && std::ranges::find(options.mask, true) == options.mask.end()) throw Error("the mask leaves no pixel");
-    return {test, reference, options.exposure ? *options.exposure : exposureOf(reference), options.mask, options.flip};
+    return {test, reference, options.exposure ? *options.exposure : exposureOf(reference), options.mask, options.flip, options.displayed};
 }
 
 }  // namespace

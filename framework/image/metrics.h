@@ -18,6 +18,8 @@ struct MetricOptions {
     std::optional<double> exposure{};
     /// Pixels that count, row by row: those that are true. Empty: all.
     std::vector<bool> mask{};
+    /// The images are pictures as displayed (linear, but of 8 or 16 bits) and no radiance: "flip" and "tflip" are LDR-FLIP, exposures unasked.
+    bool displayed = false;
     /// The viewer of "flip" and "flip_ldr", and the exposures of "flip", of which a sequence needs the same for all frames, too.
     FlipOptions flip{};
 };

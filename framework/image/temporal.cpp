@@ -66,8 +66,9 @@ double correlated(const Step& step, const MetricOptions& options) {
 
 double temporalFlip(const Step& step, const MetricOptions& options) {
     FlipOptions flip = options.flip;
-    if (!flip.exposures) flip.exposures = flipExposures(step.reference);
-    const std::vector<double> x = flipHdr(step.test, step.testBefore, flip), r = flipHdr(step.reference, step.referenceBefore, flip);
+    if (!flip.exposures && !options.displayed) flip.exposures = flipExposures(step.reference);
+    const auto compared = options.displayed ? flipLdr : flipHdr;
+    const std::vector<double> x = compared(step.test, step.testBefore, flip), r = compared(step.reference, step.referenceBefore, flip);
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         if (!options.mask.empty() && !options.mask[i]) continue;
@@ -88,7 +89,7 @@ constexpr Temporal table[] = {
      correlated},
     {"tflip",
      "mean of |FLIP(x_t, x_(t-1)) - FLIP(r_t, r_(t-1))|, 0 to 1: changes from frame to frame that a viewer sees and the reference hasn't, "
-     "or that lack; HDR-FLIP as for flip, pixels compared in place",
+     "or that lack; FLIP as for flip, pixels compared in place",
      temporalFlip},
 };
 

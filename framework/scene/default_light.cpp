@@ -46,7 +46,7 @@ bool hasLight(const Scene& scene) {
         if (share < 0) share = meanBrightness(scene.textures[map.texture]);
         return share;
     };
-    const auto shines = [&](std::uint32_t material) { return scene.materials[material].emission != glm::vec3(0) && !scene.materials[material].unlit; };
+    const auto shines = [&](std::uint32_t material) { return scene.materials[material].isLight(); };
     double power = 0;  // over pi
     for (const Instance& instance : scene.instances) {
         const MeshLevel& level = scene.meshes[instance.mesh].levels[0];

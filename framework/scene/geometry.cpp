@@ -24,7 +24,7 @@ Geometry::Geometry(const Scene& scene)
         const Mesh& mesh = scene.meshes[m];
         bounds.push_back(boundsOf(mesh));
         for (std::size_t l = 0; l < mesh.levels.size(); ++l) addLevel(scene, m, l);
-        // A mesh that emits always shows its finest level, because the list of lights is made of that one's triangles.
+        // A mesh of lights always shows its finest level, because the list of lights is made of that one's triangles.
         const std::size_t last = emitters[m].empty() ? mesh.levels.size() - 1 : 0;
         for (std::size_t l = last + 1; l < LEVELS; ++l) {
             roots[m * LEVELS + l] = roots[m * LEVELS + last];
@@ -48,7 +48,7 @@ void Geometry::addLevel(const Scene& scene, std::size_t m, std::size_t l) {
         const glm::uvec3 corners = level.triangles[t];
         const std::uint32_t material = level.materials[t];
         std::uint32_t emitter = NONE;
-        if (l == 0 && scene.materials[material].emission != glm::vec3(0)) {
+        if (l == 0 && scene.materials[material].isLight()) {
             MeshEmitters& list = emitters[m];
             emitter = std::uint32_t(list.primitives.size());
             list.primitives.push_back(std::uint32_t(primitives.size()));

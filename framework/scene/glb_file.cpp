@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string_view>
@@ -14,7 +15,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-constexpr int unsignedShort = 5123, unsignedInt = 5125, elementBuffer = 34963;  // glTF 2.0, section 5
+constexpr int unsignedShort = 5123, unsignedInt = 5125, floatType = 5126, arrayBuffer = 34962,
+              elementBuffer = 34963;  // glTF 2.0, section 5
 
 /// Media type of an image by its first bytes; where they are unknown, by its name.
 std::string mediaType(std::span<const std::byte> bytes, const std::string& uri) {
@@ -105,6 +107,20 @@ std::size_t GlbFile::addIndices(std::span<const std::uint32_t> indices, std::siz
     json["bufferViews"][view]["target"] = elementBuffer;
     json["accessors"].push_back(
         {{"bufferView", view}, {"componentType", narrow ? unsignedShort : unsignedInt}, {"count", indices.size()}, {"type", "SCALAR"}});
+    return json["accessors"].size() - 1;
+}
+
+std::size_t GlbFile::addColors(std::span<const glm::vec4> colors) {
+    const bool narrow = std::ranges::all_of(colors, [](const glm::vec4& c) {
+        return glm::all(glm::greaterThanEqual(c, glm::vec4(0))) && glm::all(glm::lessThanEqual(c, glm::vec4(1)));
+    });
+    std::vector<glm::u16vec4> shorts;
+    for (std::size_t i = 0; narrow && i < colors.size(); ++i) shorts.emplace_back(glm::round(65535.0f * colors[i]));
+    const std::size_t view = addView(narrow ? std::as_bytes(std::span(shorts)) : std::as_bytes(colors));
+    json["bufferViews"][view]["target"] = arrayBuffer;
+    json["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", narrow ? unsignedShort : floatType}, {"count", colors.size()}, {"type", "VEC4"}});
+    if (narrow) json["accessors"].back()["normalized"] = true;
     return json["accessors"].size() - 1;
 }
 

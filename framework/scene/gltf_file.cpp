@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Containers of glTF 2.0 (JSON text, GLB), checked before anything else is believed.
+#include <framework/core/file_kind.h>
 #include <framework/scene/gltf_file.h>
 #include <framework/scene/gltf_meshopt.h>
 #include <framework/scene/gltf_structure.h>
@@ -220,6 +221,7 @@ GltfFile readGltfFile(const Path& path) {
     if (file.binary) container = openBinary(bytes, path.string());
 
     file.json = Json::parse(container.text, path.string());
+    expectKind(file.json, FileKind::model);
     if (!file.json.isObject()) throw Error(Where{path.string()}, fmt::format("a glTF file is a JSON object, this is {}", file.json.kindName()));
     checkVersion(file);
     Problems problems;

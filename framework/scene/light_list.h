@@ -9,7 +9,7 @@
 
 namespace lodestir {
 
-/// Emissive triangles of a mesh's finest level, in BVH order.
+/// Triangles of a mesh's finest level whose materials are lights, in BVH order.
 struct MeshEmitters {
     std::vector<std::uint32_t> primitives;  ///< indices into World.primitives
     std::vector<glm::uvec3> triangles;      ///< their vertex indices within the level

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/lod_chain.h>
 
+#include <framework/scene/lod_colors.h>
 #include <framework/scene/lod_simplify.h>
 
 #include <fmt/format.h>
@@ -37,10 +38,11 @@ LodChain buildLodChain(const MeshLevel& finest, const LodChainOptions& options) 
             chain.end = fmt::format("{} triangles cannot be made fewer without tearing the surface or its UVs", before);
             break;
         }
-        const LodError measured = reference.measure(simplified.triangles);
-        if (measured.largest() > largestError * chain.radius) {
+        std::vector<glm::vec4> colors = coarseColors(finest, simplified.triangles, simplified.groups);
+        const LodError measured = reference.measure(simplified.triangles, colors);
+        if (measured.distance() > largestError * chain.radius) {
             chain.end = fmt::format("with {} triangles it would be off by {:.3g}, more than a quarter of its radius",
-                                    simplified.triangles.size(), measured.largest());
+                                    simplified.triangles.size(), measured.distance());
             break;
         }
         if (const float lost = std::max(measured.uvLostCoarse, measured.uvLostFinest); lost > mostLost) {
@@ -49,7 +51,7 @@ LodChain buildLodChain(const MeshLevel& finest, const LodChainOptions& options) 
         }
         error = std::max(error, measured.largest());
         before = simplified.triangles.size();
-        chain.coarser.push_back({std::move(simplified.triangles), std::move(simplified.groups), error, measured});
+        chain.coarser.push_back({std::move(simplified.triangles), std::move(simplified.groups), std::move(colors), error, measured});
     }
     return chain;
 }

@@ -15,7 +15,8 @@ struct LodChainOptions {
 struct LodLevel {
     std::vector<glm::uvec3> triangles;  ///< of the finest level's vertices
     std::vector<std::uint32_t> groups;  ///< of each triangle, as MeshLevel::materials
-    float error = 0;                    ///< two-sided distance to the finest level, never below that of the level before
+    std::vector<glm::vec4> colors;      ///< of the finest level's vertices, as this level shows them; empty where there are none
+    float error = 0;  ///< largest distance to the finest level in space and in what is seen, never below that of the level before
     LodError measured;
 };
 

@@ -64,6 +64,31 @@ float farthest(const std::vector<glm::vec3>& positions, const std::vector<glm::u
     return distances.empty() ? 0.0f : float(std::ranges::max(distances));
 }
 
+/// Largest distance in space and appearance from points of a level to the other.
+float leastAlike(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles, const Appearance& appearance,
+                 const std::vector<SurfacePoint>& points, const std::vector<glm::uvec3>& others, const Appearance& othersAppearance,
+                 const TriangleTree& surface) {
+    std::vector<double> distances(points.size());
+    parallelFor(points.size(), 64, [&](std::size_t begin, std::size_t end) {
+        std::array<double, Appearance::most> numbers{};
+        const auto looks = std::span(numbers).first(appearance.size());
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::uvec3& t = triangles[points[i].triangle];
+            glm::dvec3 place(0);
+            std::ranges::fill(looks, 0.0);
+            for (int k = 0; k < 3; ++k) {
+                const double weight = points[i].weights[k];
+                place += weight * glm::dvec3(positions[t[k]]);
+                for (std::size_t n = 0; n < looks.size(); ++n) looks[n] += weight * double(appearance.of(t[k])[n]);
+            }
+            distances[i] = std::sqrt(surface.least(place, [&](std::uint32_t other) {
+                return nearestOn(others[other], positions, othersAppearance, place, looks).squaredDistance;
+            }));
+        }
+    });
+    return distances.empty() ? 0.0f : float(std::ranges::max(distances));
+}
+
 /// Barycentric weights of a point in a triangle of the UV plane; none when it lies outside or the triangle has no area.
 std::optional<glm::vec3> weightsIn(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     const auto cross = [](const glm::dvec2& x, const glm::dvec2& y) { return x.x * y.y - x.y * y.x; };
@@ -107,7 +132,8 @@ bool hasUsefulUvs(const MeshLevel& level) {
     });
 }
 
-LodReference::LodReference(const MeshLevel& finest) : finest_(finest), surface_(finest.positions, finest.triangles) {
+LodReference::LodReference(const MeshLevel& finest)
+    : finest_(finest), surface_(finest.positions, finest.triangles), appearance_(finest, Appearance::all) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::uvec3& t : finest.triangles)
         for (int k = 0; k < 3; ++k) {
@@ -121,12 +147,20 @@ LodReference::LodReference(const MeshLevel& finest) : finest_(finest), surface_(
     chart_.emplace(uvs_, finest.triangles);
 }
 
-LodError LodReference::measure(const std::vector<glm::uvec3>& coarse) const {
+LodError LodReference::measure(const std::vector<glm::uvec3>& coarse, const std::vector<glm::vec4>& colors) const {
     const auto coarsePoints = spread(finest_.positions, coarse, spreadPoints);
     const auto finestPoints = spread(finest_.positions, finest_.triangles, spreadPoints);
     LodError error;
     error.toFinest = farthest(finest_.positions, coarse, coarsePoints, surface_);
-    error.fromFinest = farthest(finest_.positions, finest_.triangles, finestPoints, TriangleTree(finest_.positions, coarse));
+    const TriangleTree coarseSurface(finest_.positions, coarse);
+    error.fromFinest = farthest(finest_.positions, finest_.triangles, finestPoints, coarseSurface);
+    if (appearance_.size() > 0) {
+        Appearance painted = appearance_;
+        painted.paint(colors);
+        error.appearance =
+            std::max(leastAlike(finest_.positions, coarse, painted, coarsePoints, finest_.triangles, appearance_, surface_),
+                     leastAlike(finest_.positions, finest_.triangles, appearance_, finestPoints, coarse, painted, coarseSurface));
+    }
     if (!hasUvs()) return error;
 
     std::vector<float> distances = drifts(finest_, uvs_, coarse, coarsePoints, finest_.triangles, *chart_);

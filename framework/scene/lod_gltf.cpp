@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -25,6 +26,14 @@ struct GltfSurface {
     MeshLevel level;
     std::vector<std::uint32_t> starts;  ///< first vertex of each primitive, and one more
 };
+
+/// The material that a primitive names; null where it names none that is there.
+const tinygltf::Material* materialOf(const GltfFile& file, const tinygltf::Primitive& primitive) {
+    const bool there = primitive.material >= 0 && primitive.material < int(file.model.materials.size());
+    return there ? &file.model.materials[std::size_t(primitive.material)] : nullptr;
+}
+
+bool isUnlit(const tinygltf::Material& material) { return material.extensions.contains("KHR_materials_unlit"); }
 
 class SurfaceReader {
 public:
@@ -66,10 +75,16 @@ private:
             }
         };
         take(surface_.level.positions, "POSITION", glm::vec3(0));
-        take(surface_.level.normals, "NORMAL", glm::vec3(0));
+        // What isn't seen costs nothing: an unlit surface has no shading, tangents serve a normal map.
+        const tinygltf::Material* material = materialOf(file_, primitive);
+        const bool shaded = !material || !isUnlit(*material);
+        if (shaded) take(surface_.level.normals, "NORMAL", glm::vec3(0));
+        if (shaded && material && material->normalTexture.index >= 0) take(surface_.level.tangents, "TANGENT", glm::vec4(0));
         take(surface_.level.uv0, "TEXCOORD_0", glm::vec2(0));
         take(surface_.level.uv1, "TEXCOORD_1", glm::vec2(0));
         take(surface_.level.colors, "COLOR_0", glm::vec4(1));
+        for (glm::vec4& color : std::span(surface_.level.colors).subspan(surface_.level.colors.empty() ? 0 : start))
+            for (int c = 0; c < 4; ++c) color[c] = std::isfinite(color[c]) ? std::max(color[c], 0.0f) : 1;  // as the loader has it
 
         std::vector<std::uint32_t> indices(surface_.level.positions.size() - start);
         std::iota(indices.begin(), indices.end(), 0u);
@@ -160,10 +175,10 @@ private:
 
     bool emits(const tinygltf::Mesh& mesh) const {
         return std::ranges::any_of(mesh.primitives, [&](const tinygltf::Primitive& primitive) {
-            if (primitive.material < 0 || primitive.material >= int(file_.model.materials.size())) return false;
-            const tinygltf::Material& material = file_.model.materials[std::size_t(primitive.material)];
-            const float strength = numberOf(findExtension(material.extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
-            return strength > 0 && std::ranges::any_of(material.emissiveFactor, [](double c) { return c > 0; });
+            const tinygltf::Material* material = materialOf(file_, primitive);
+            if (!material || isUnlit(*material)) return false;
+            const float strength = numberOf(findExtension(material->extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
+            return strength > 0 && std::ranges::any_of(material->emissiveFactor, [](double c) { return c > 0; });
         });
     }
 
@@ -183,7 +198,11 @@ private:
 
     void writeChain(std::size_t mesh, const std::vector<std::size_t>& nodes, const GltfSurface& surface, LodMeshFacts& facts) {
         LodChain& chain = facts.chain;
-        if (!chain.hasUvs) facts.notes.push_back("it has no UVs: simplified by shape alone, and points of its levels cannot be matched");
+        const tinygltf::Mesh& source = file_.model.meshes[mesh];
+        const bool bends = std::ranges::any_of(nodes, [&](std::size_t node) { return file_.model.nodes[node].skin >= 0; });
+        if (bends || std::ranges::any_of(source.primitives, [](const auto& p) { return !p.targets.empty(); }))
+            facts.notes.push_back("it deforms: its levels are made and measured as the file has it at rest");
+        if (!chain.hasUvs) facts.notes.push_back("it has no UVs: simplified without them, and points of its levels cannot be matched");
         if (!chain.end.empty())
             facts.notes.push_back(fmt::format("{} instead of {} levels: {}", chain.coarser.size() + 1, options_.chain.levels, chain.end));
         std::vector<std::size_t> levelMeshes;
@@ -195,6 +214,7 @@ private:
             facts.coarserTriangles.push_back(level.triangles.size());
             level.triangles = {};
             level.groups = {};
+            level.colors = {};
         }
         if (levelMeshes.empty()) return;
         facts.coverages = screenCoverages(chain);
@@ -212,7 +232,7 @@ private:
         }
     }
 
-    /// The mesh with the triangles of a level: same vertices, same materials. What has no triangles (points, lines) stays.
+    /// The mesh with the triangles of a level: same vertices but for their colours, same materials. What has no triangles (points, lines) stays.
     std::size_t addMesh(std::size_t mesh, const GltfSurface& surface, const LodLevel& level, std::size_t number) {
         std::vector<std::vector<std::uint32_t>> indices(surface.starts.size() - 1);
         for (std::size_t t = 0; t < level.triangles.size(); ++t)
@@ -227,6 +247,8 @@ private:
                 primitive.erase("mode");
                 if (primitive.contains("extensions")) primitive["extensions"].erase("KHR_draco_mesh_compression");  // of other indices
                 primitive["indices"] = glb_.addIndices(indices[p], vertices);
+                if (json["primitives"][p]["attributes"].contains("COLOR_0"))
+                    primitive["attributes"]["COLOR_0"] = glb_.addColors(std::span(level.colors).subspan(surface.starts[p], vertices));
             }
             primitives.push_back(std::move(primitive));
         }

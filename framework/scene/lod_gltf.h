@@ -28,7 +28,8 @@ struct LodModel {
 };
 
 /// Reads a model, builds the chains and returns the model with them as the bytes of a GLB file. All else of the model stays as it is;
-/// vertices are shared by all levels. Meshes that emit, and nodes that have levels already, are left alone. Each node with levels gets
+/// vertices are shared by all levels, but for their colours. Meshes that emit, and nodes that have levels already, are left alone; unlit
+/// surfaces are no lights. Each node with levels gets
 /// `extensions.MSFT_lod.ids`, `extras.MSFT_screencoverage`, `extras.lod_error` and, with UVs, `extras.lod_uv_error`.
 /// Error with everything that is wrong with the model.
 LODESTIR_API LodModel buildLodModel(const Path& path, const LodModelOptions& options);

@@ -22,6 +22,10 @@ bool holds(const std::vector<std::uint32_t>& values, std::uint32_t value) { retu
 Simplifier::Simplifier(const MeshLevel& surface)
     : surface_(surface),
       wedges_(surface),
+      box_(boundsOfTriangles(surface)),
+      extent_(std::max<double>(box_.isEmpty() ? 0 : glm::length(box_.high - box_.low), std::numeric_limits<float>::min())),
+      appearance_(surface, Appearance::all & ~unsigned(Appearance::uv0)),
+      attributes_(wedges_.positions.size(), appearance_.size()),
       triangles_(wedges_.triangles),
       dead_(triangles_.size(), false),
       around_(wedges_.placeCount),
@@ -35,34 +39,61 @@ Simplifier::Simplifier(const MeshLevel& surface)
     for (std::uint32_t place = 0; place < around_.size(); ++place) plan(place);
 }
 
-/// Positions are taken from the middle and scaled to the extent; a UV unit is as long as it is on the surface on average.
+/// Positions are taken from the middle and, as attributes are, scaled to the extent; a UV unit is as long as it is on the surface on average.
 void Simplifier::addQuadrics() {
-    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
-    double area = 0, chartArea = 0;
-    for (const glm::uvec3& t : triangles_) {
-        const glm::dvec3 a(wedges_.positions[t.x]), b(wedges_.positions[t.y]), c(wedges_.positions[t.z]);
-        area += glm::length(glm::cross(b - a, c - a));
-        chartArea += std::abs(uvArea(wedges_.uvs[t.x], wedges_.uvs[t.y], wedges_.uvs[t.z]));
-        for (int k = 0; k < 3; ++k) {
-            low = glm::min(low, wedges_.positions[t[k]]);
-            high = glm::max(high, wedges_.positions[t[k]]);
-        }
-    }
-    const double extent = std::max<double>(glm::length(high - low), std::numeric_limits<float>::min());
-    const double uvUnit = chartArea > 0 ? std::sqrt(area / chartArea) : 0;
-    const glm::dvec3 middle = 0.5 * (glm::dvec3(low) + glm::dvec3(high));
+    const double uvUnit = uvLength(surface_, surface_.uv0);
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(box_.low) + glm::dvec3(box_.high));
     for (std::size_t w = 0; w < wedges_.positions.size(); ++w) {
-        const glm::dvec3 p = (glm::dvec3(wedges_.positions[w]) - middle) / extent;
-        const glm::dvec2 uv = glm::dvec2(wedges_.uvs[w]) * (uvUnit / extent);
+        const glm::dvec3 p = (glm::dvec3(wedges_.positions[w]) - middle) / extent_;
+        const glm::dvec2 uv = glm::dvec2(wedges_.uvs[w]) * (uvUnit / extent_);
         points_.push_back({p.x, p.y, p.z, uv.x, uv.y});
     }
     quadrics_.resize(points_.size());
     for (const glm::uvec3& t : triangles_) {
         const glm::dvec3 a(wedges_.positions[t.x]), b(wedges_.positions[t.y]), c(wedges_.positions[t.z]);
-        const double weight = glm::length(glm::cross(b - a, c - a)) / (extent * extent);
+        const double weight = glm::length(glm::cross(b - a, c - a)) / (extent_ * extent_);
         const Quadric quadric = Quadric::ofTriangle(points_[t.x], points_[t.y], points_[t.z], weight);
         for (int k = 0; k < 3; ++k) quadrics_[t[k]] += quadric;
+        if (attributes_.attributes() == 0) continue;
+        // At a hard edge shape tells enough: what is shaded flat has the normals of its faces.
+        const bool hard = isHard(t.x) || isHard(t.y) || isHard(t.z);
+        const auto place = [&](std::uint32_t w) { return glm::dvec3(points_[w][0], points_[w][1], points_[w][2]); };
+        attributes_.addTriangle(
+            t, {place(t.x), place(t.y), place(t.z)}, weight, hard ? appearance_.frameSize() : 0,
+            [&](int corner, std::size_t j) { return appearance_.of(wedges_.vertices[t[corner]].front())[j] / extent_; });
     }
+}
+
+/// Has the wedge more than one normal or tangent?
+bool Simplifier::isHard(std::uint32_t wedge) const {
+    const std::vector<std::uint32_t>& all = wedges_.vertices[wedge];
+    return std::ranges::any_of(all, [&](std::uint32_t v) {
+        return !std::ranges::equal(appearance_.of(v).first(appearance_.frameSize()),
+                                   appearance_.of(all.front()).first(appearance_.frameSize()));
+    });
+}
+
+/// The wedge's vertex that looks most like another.
+std::uint32_t Simplifier::vertexLike(std::uint32_t wedge, std::uint32_t vertex) const {
+    return *std::ranges::min_element(wedges_.vertices[wedge], {}, [&](std::uint32_t v) {
+        double sum = 0;
+        for (std::size_t j = 0; j < appearance_.frameSize(); ++j) {
+            const double difference = appearance_.of(v)[j] - appearance_.of(vertex)[j];
+            sum += difference * difference;
+        }
+        return sum;
+    });
+}
+
+/// What it costs that the surface of a wedge gets the looks of another.
+double Simplifier::attributeCost(std::uint32_t wedge, std::uint32_t target) const {
+    if (attributes_.attributes() == 0) return 0;
+    std::array<double, Appearance::most> looks;
+    const auto values = appearance_.of(vertexLike(target, wedges_.vertices[wedge].front()));
+    for (std::size_t j = 0; j < values.size(); ++j) looks[j] = values[j] / extent_;
+    const glm::dvec3 place(points_[target][0], points_[target][1], points_[target][2]);
+    const auto span = std::span(looks).first(values.size());
+    return attributes_.at(wedge, place, span) + attributes_.at(target, place, span);
 }
 
 /// Borders of charts, groups and the surface pull their ends back to themselves; edges of more than two triangles hold their ends.
@@ -182,7 +213,7 @@ void Simplifier::plan(std::uint32_t place) {
         for (const auto& [wedge, target] : targets) {
             Quadric sum = quadrics_[wedge];
             sum += quadrics_[target];
-            cost += sum.at(points_[target]);
+            cost += sum.at(points_[target]) + attributeCost(wedge, target);
             for (std::size_t i = 0; i < 3; ++i) way += (points_[wedge][i] - points_[target][i]) * (points_[wedge][i] - points_[target][i]);
         }
         cost += shortnessWeight * way * way;
@@ -192,7 +223,10 @@ void Simplifier::plan(std::uint32_t place) {
 }
 
 void Simplifier::collapse(const Step& step, const Targets& targets) {
-    for (const auto& [wedge, target] : targets) quadrics_[target] += quadrics_[wedge];
+    for (const auto& [wedge, target] : targets) {
+        quadrics_[target] += quadrics_[wedge];
+        attributes_.add(target, wedge);
+    }
     for (std::uint32_t t : around_[step.from]) {
         if (dead_[t]) continue;
         if (cornerAt(t, step.to) != none) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Fewer triangles on the same vertices: edge collapse that keeps charts, materials and their borders together.
 #pragma once
+#include <framework/scene/lod_appearance.h>
+#include <framework/scene/lod_attribute_quadrics.h>
 #include <framework/scene/lod_quadric.h>
 #include <framework/scene/lod_wedges.h>
 
@@ -14,7 +16,8 @@ struct Simplified {
     std::vector<std::uint32_t> groups;  ///< of each triangle: MeshLevel::materials of those it stands for
 };
 
-/// Takes places away one by one, each to a neighbour, the one that moves surface and texture least first (Garland and Heckbert 1998).
+/// Takes places away one by one, each to a neighbour, the one that changes what is seen least first: surface and texture that move (Garland
+/// and Heckbert 1998), and normals, tangents, second UVs and colours that become others (Hoppe 1999), all as lengths (Appearance).
 /// - All wedges of a place go to wedges of the neighbour within their own charts, or the place stays: borders of charts and groups move
 ///   along themselves and stay closed, and so does the line where mirrored halves meet. Open borders move along themselves.
 /// - No triangle may turn over, in space or in the UV plane; places where more than two triangles share an edge stay.
@@ -39,6 +42,9 @@ private:
 
     void addQuadrics();
     void findBorders();
+    bool isHard(std::uint32_t wedge) const;
+    std::uint32_t vertexLike(std::uint32_t wedge, std::uint32_t vertex) const;
+    double attributeCost(std::uint32_t wedge, std::uint32_t target) const;
     std::uint32_t cornerAt(std::uint32_t triangle, std::uint32_t place) const;
     std::vector<std::uint32_t> neighbours(std::uint32_t place) const;
     bool findTargets(std::uint32_t from, std::uint32_t to, Targets& targets) const;
@@ -50,8 +56,12 @@ private:
 
     const MeshLevel& surface_;
     Wedges wedges_;
+    Box box_;
+    double extent_;                                   ///< that lengths are measured by: the diagonal
+    Appearance appearance_;                           ///< of all but the UVs that are in `points_`
     std::vector<Point5> points_;                      ///< of each wedge
     std::vector<Quadric> quadrics_;                   ///< of each wedge
+    AttributeQuadrics attributes_;
     std::vector<glm::uvec3> triangles_;               ///< of wedges
     std::vector<bool> dead_;                          ///< of each triangle
     std::vector<std::vector<std::uint32_t>> around_;  ///< triangles of each place, some of them dead

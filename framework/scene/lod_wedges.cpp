@@ -47,16 +47,16 @@ Wedges::Wedges(const MeshLevel& surface) {
             if (const int sign = orientation(t)) seen[t[k]][sign < 0] = true;
 
     std::unordered_map<Key<3>, std::uint32_t, KeyHash> knownPlaces;
-    std::unordered_map<Key<10>, std::uint32_t, KeyHash> knownWedges;
+    std::unordered_map<Key<11>, std::uint32_t, KeyHash> knownWedges;
     const auto wedgeOf = [&](std::uint32_t vertex, std::uint32_t group, int sign) {
         if (sign == 0) sign = seen[vertex][0] ? 1 : seen[vertex][1] ? -1 : 0;  // a sliver of the chart goes with what is around it
         Key<3> place;
         for (int i = 0; i < 3; ++i) place.add(surface.positions[vertex][i]);
-        Key<10> key;
+        Key<11> key;
         key.add(knownPlaces.try_emplace(place, std::uint32_t(knownPlaces.size())).first->second);
         for (const auto* values : {&surface.uv0, &surface.uv1})
             for (int i = 0; i < 2; ++i) key.add(values->empty() ? 0.0f : (*values)[vertex][i]);
-        for (int i = 0; i < 3; ++i) key.add(surface.colors.empty() ? 1.0f : surface.colors[vertex][i]);
+        for (int i = 0; i < 4; ++i) key.add(surface.colors.empty() ? 1.0f : surface.colors[vertex][i]);
         key.add(group);
         key.add(std::uint32_t(sign));
         const auto [entry, isNew] = knownWedges.try_emplace(key, std::uint32_t(positions.size()));

@@ -69,6 +69,9 @@ struct Material {
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     bool unlit = false;             ///< emission and emissiveMap are the base colour's, which vertex colours tint; nothing scatters
+    /// Are its surfaces listed as lights, for light samples to find? Unlit ones are not, though what they emit lights what it falls on: a scan
+    /// of millions of triangles is no lamp.
+    bool isLight() const { return emission != glm::vec3(0) && !unlit; }
     std::optional<MaterialLayers> layers;
     TextureSlot baseColorMap, metallicRoughnessMap, normalMap, occlusionMap, emissiveMap, transmissionMap;
 };

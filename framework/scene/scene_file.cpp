@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reading of scene files.
 #include <framework/core/is_file.h>
+#include <framework/core/file_kind.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/fields.h>
 #include <framework/scene/gltf.h>
@@ -76,6 +77,7 @@ public:
     explicit SceneFileLoader(const Path& path) : path_(path), json_(Json::load(path)) { scene_.file = path; }
 
     Scene load(SceneFileSays& says) {
+        expectKind(json_, FileKind::scene);
         Fields fields(json_, "the scene", problems_);
         fields.allow({"$schema"});
         checkFormat(fields);

@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint32_t leafSize = 4;
 
 /// Squared distance to a triangle, by the region of the plane that the point projects to (Ericson 2005, section 5.1.5).
-double squaredDistance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+double squaredDistanceToTriangle(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const auto toSegment = [&](const glm::dvec3& from, const glm::dvec3& to) {
         const glm::dvec3 edge = to - from;
         const double length = glm::dot(edge, edge), t = length > 0 ? std::clamp(glm::dot(p - from, edge) / length, 0.0, 1.0) : 0.0;
@@ -26,11 +26,6 @@ double squaredDistance(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec
     if (!inside) return std::min({toSegment(a, b), toSegment(b, c), toSegment(c, a)});
     const double height = glm::dot(p - a, normal);
     return height * height / area;
-}
-
-double squaredDistance(const glm::dvec3& p, const glm::vec3& low, const glm::vec3& high) {
-    const glm::dvec3 d = glm::max(glm::max(glm::dvec3(low) - p, p - glm::dvec3(high)), 0.0);
-    return glm::dot(d, d);
 }
 
 }  // namespace
@@ -79,28 +74,8 @@ void TriangleTree::split(std::uint32_t node, std::span<const glm::vec3> centres)
 }
 
 double TriangleTree::distance(const glm::dvec3& p) const {
-    double best = std::numeric_limits<double>::infinity();
-    struct Entry {
-        std::uint32_t node;
-        double distance;
-    };
-    Entry stack[64];
-    std::uint32_t depth = 0;
-    if (!nodes_.empty()) stack[depth++] = {0, 0};
-    while (depth > 0) {
-        const Entry entry = stack[--depth];
-        if (entry.distance >= best) continue;
-        const Box& box = nodes_[entry.node];
-        for (std::uint32_t i = box.first; i < box.first + box.count; ++i)
-            best = std::min(best, squaredDistance(p, corners_[i].a, corners_[i].b, corners_[i].c));
-        if (box.count > 0) continue;
-        Entry near{box.first, 0}, far{box.first + 1, 0};
-        for (Entry* child : {&near, &far}) child->distance = squaredDistance(p, nodes_[child->node].low, nodes_[child->node].high);
-        if (near.distance > far.distance) std::swap(near, far);
-        stack[depth++] = far;
-        stack[depth++] = near;
-    }
-    return std::sqrt(best);
+    return std::sqrt(
+        search(p, [&](std::uint32_t slot) { return squaredDistanceToTriangle(p, corners_[slot].a, corners_[slot].b, corners_[slot].c); }));
 }
 
 }  // namespace lodestir

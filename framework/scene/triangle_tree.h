@@ -5,8 +5,11 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace lodestir {
@@ -18,6 +21,12 @@ public:
 
     /// Distance from `p` to the nearest point of any triangle; infinite when there are none.
     double distance(const glm::dvec3& p) const;
+
+    /// The least of square(triangle), which is never below the triangle's squared distance from `p`. Boxes too far to hold the least are
+    /// left out, nearer ones come first. Infinite when there are no triangles.
+    template <class Square> double least(const glm::dvec3& p, const Square& square) const {
+        return search(p, [&](std::uint32_t slot) { return square(order_[slot]); });
+    }
 
     /// Calls visit(triangle) for each triangle whose box, grown by `margin`, holds `p`.
     template <class Visit> void near(const glm::vec3& p, float margin, const Visit& visit) const {
@@ -43,6 +52,33 @@ private:
         glm::vec3 a, b, c;
     };
     void split(std::uint32_t node, std::span<const glm::vec3> centres);
+    static double squaredDistance(const glm::dvec3& p, const Box& box) {
+        const glm::dvec3 d = glm::max(glm::max(glm::dvec3(box.low) - p, p - glm::dvec3(box.high)), 0.0);
+        return glm::dot(d, d);
+    }
+    /// The least of square(slot) over places in the tree's order.
+    template <class Square> double search(const glm::dvec3& p, const Square& square) const {
+        double best = std::numeric_limits<double>::infinity();
+        struct Entry {
+            std::uint32_t node;
+            double distance;
+        };
+        Entry stack[64];
+        std::uint32_t depth = 0;
+        if (!nodes_.empty()) stack[depth++] = {0, 0};
+        while (depth > 0) {
+            const Entry entry = stack[--depth];
+            if (entry.distance >= best) continue;
+            const Box& box = nodes_[entry.node];
+            for (std::uint32_t i = box.first; i < box.first + box.count; ++i) best = std::min(best, double(square(i)));
+            if (box.count > 0) continue;
+            Entry near{box.first, squaredDistance(p, nodes_[box.first])}, far{box.first + 1, squaredDistance(p, nodes_[box.first + 1])};
+            if (near.distance > far.distance) std::swap(near, far);
+            stack[depth++] = far;
+            stack[depth++] = near;
+        }
+        return best;
+    }
 
     std::vector<Box> nodes_;
     std::vector<std::uint32_t> order_;

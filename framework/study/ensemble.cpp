@@ -11,6 +11,7 @@ Study studyOf(const EnsembleSetup& setup) {
     Study study{.kind = StudyKind::ensemble,
                 .scenes = {{setup.scene.stem().string(), setup.scene, {}}},
                 .size = setup.size,
+                .paired = true,  // graphs have no names to be told apart by
                 .warmup = setup.warmup,
                 .event = setup.frame,
                 .measure = {0},

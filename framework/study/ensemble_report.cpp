@@ -58,6 +58,12 @@ private:
             "<b>Inconclusive</b> is a failure, too.",
             study_.size.x, study_.size.y, study_.seeds.size(), study_.warmup, study_.referenceSamples, batchesOf(study_),
             escapeHtml(device.empty() ? "no device yet" : device), blockSize, blockSize, 100 * study_.halfWidth);
+        html += study_.paired
+                    ? " Every technique draws the same seeds: differences between techniques can be taken run by run, and what all of them "
+                      "show alike is one observation."
+                    : " Every technique and value of a knob draws seeds of its own.";
+        html +=
+            " All are held against one draw of a scene's reference, whose error they share: signs that agree within its noise say nothing.";
         if (summary_.missing > 0) html += fmt::format(" <b>{} chunks of runs are still missing.</b>", summary_.missing);
         return html + "</p>\n";
     }

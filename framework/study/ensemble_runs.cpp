@@ -93,7 +93,8 @@ std::vector<EnsembleChunk> expandChunks(const Study& study) {
 
 StagedGraph EnsembleStage::build(const EnsembleChunk& chunk) {
     if (!chunk.technique) return stage_.buildReference(chunk.scene, study_.referenceSamples / batchesOf(study_));
-    return stage_.build(study_.techniques[*chunk.technique].graph, chunk.knobs, chunk.scene, study_.seeds.front());
+    return stage_.build(study_.techniques[*chunk.technique].graph, chunk.knobs, chunk.scene,
+                        drawnSeed(study_, *chunk.technique, chunk.knobs, study_.seeds.front()));
 }
 
 std::string EnsembleStage::nameOf(const EnsembleChunk& chunk) {
@@ -135,7 +136,8 @@ std::vector<ChunkFrame> EnsembleStage::render(const EnsembleChunk& chunk) {
         }
     };
     for (int i = chunk.first; i < chunk.first + chunk.count; ++i) {
-        const std::uint32_t seed = chunk.technique ? study_.seeds[std::size_t(i)] : firstReferenceSeed + std::uint32_t(i);
+        const std::uint32_t seed = chunk.technique ? drawnSeed(study_, *chunk.technique, chunk.knobs, study_.seeds[std::size_t(i)])
+                                                   : firstReferenceSeed + std::uint32_t(i);
         if (!freshStarts) run(seed, -study_.warmup, study_.measure.back());
         if (freshStarts)
             for (const int offset : study_.measure) run(seed, offset, offset);

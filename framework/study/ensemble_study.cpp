@@ -55,7 +55,8 @@ void writeImages(const Study& study, const EnsembleCell& cell, const Path& chunk
 
 }  // namespace
 
-EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard) {
+EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard,
+                            const std::function<bool()>& stops) {
     EnsembleStage runs(stage, study);
     const std::vector<EnsembleChunk> chunks = expandChunks(study);
     std::vector<std::string> names;
@@ -70,6 +71,7 @@ EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, c
         ResultFile results(file);
         log::Progress progress("chunks of runs", todo.size());
         for (const std::size_t i : todo) {
+            if (stops()) break;
             std::vector<nlohmann::ordered_json> lines;
             for (const EnsembleRow& row : measure(runs, stage, study, chunks[i], names[i], out / "chunks")) lines.push_back(toJson(row));
             results.addLines(lines);

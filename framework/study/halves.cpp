@@ -2,6 +2,7 @@
 #include <framework/core/error.h>
 #include <framework/study/halves.h>
 
+#include <cmath>
 #include <utility>
 
 namespace lodestir {
@@ -19,6 +20,23 @@ double measureError(std::string_view metric, const ImageData& test, const Halves
 
 double referenceNoise(std::string_view metric, const Halves& reference, const MetricOptions& options) {
     return isNoiseFree(metric) ? evaluate(metric, reference.a, reference.mean, options) : 0;
+}
+
+double referenceDeviation(std::string_view metric, const Halves& reference, const MetricOptions& options) {
+    if (metric != "bias") return 0;
+    // Of the mean of (A + B) / 2: its variance in a pixel is expected to be ((A - B) / 2)^2.
+    const auto channels = std::size_t(reference.mean.channels);
+    double squares = 0, sum = 0;
+    for (std::size_t pixel = 0; pixel < reference.mean.pixelCount(); ++pixel) {
+        if (!options.mask.empty() && !options.mask[pixel]) continue;
+        double half = 0;
+        for (std::size_t i = pixel * channels; i < (pixel + 1) * channels; ++i) {
+            half += 0.5 * (double(reference.a.values[i]) - double(reference.b.values[i]));
+            sum += double(reference.mean.values[i]);
+        }
+        squares += half * half;
+    }
+    return std::sqrt(squares) / std::abs(sum);
 }
 
 }  // namespace lodestir

@@ -23,6 +23,10 @@ bool isNoiseFree(std::string_view metric);
 /// `options`: its exposure has to be set, one for all that is compared.
 double measureError(std::string_view metric, const ImageData& test, const Halves& reference, const MetricOptions& options);
 
+/// Standard deviation that the reference's noise gives the value of a metric in all runs alike, which no spread over seeds shows: of "bias", by
+/// the differences of A and B, pixels being independent; 0 for other metrics.
+double referenceDeviation(std::string_view metric, const Halves& reference, const MetricOptions& options);
+
 /// What measureError() takes out, an unbiased estimate of the error of M itself; 0 for metrics that keep it.
 double referenceNoise(std::string_view metric, const Halves& reference, const MetricOptions& options);
 

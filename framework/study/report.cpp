@@ -67,7 +67,13 @@ private:
                 "; {} {} the mean of (x − A)(x − B), which the noise of the reference does not raise (and which may fall below 0 where the "
                 "error is far smaller than that noise)",
                 list(clean), clean.size() == 1 ? "is" : "are");
-        html += ". All seeds are judged by one reference, so that the intervals tell the spread of the technique and not of the reference.";
+        html += ". All seeds are judged by one reference: intervals tell the spread of the technique";
+        html += std::ranges::find(study_.metrics, "bias") == study_.metrics.end() ? " and not of the reference."
+                                                                                  : ", those of bias the reference's noise as well.";
+        html += study_.paired
+                    ? " Every technique draws the same seeds, so that differences between techniques can be taken run by run; what all of "
+                      "them show alike is one observation."
+                    : " Every technique and value of a knob draws seeds of its own.";
         if (!noisy.empty())
             html += fmt::format(" {} {} measured against (A + B) / 2 and include that image's noise.", list(noisy),
                                 noisy.size() == 1 ? "is" : "are");

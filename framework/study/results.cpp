@@ -45,9 +45,19 @@ std::uint64_t ResultRow::rays() const {
 OrderedJson toJson(const ResultRow& row) {
     OrderedJson costs = OrderedJson::object();
     for (const PassCost& pass : row.passes) costs[pass.name] = {{"ms", pass.milliseconds}, {"rays", pass.rays}};
-    return {{"scene", row.scene},          {"technique", row.technique}, {"knobs", row.knobs},         {"seed", row.seed},
-            {"frame", row.offset},         {"ms", row.milliseconds},     {"passes", std::move(costs)}, {"metrics", row.metrics},
-            {"referenceNoise", row.noise}, {"exposure", row.exposure},   {"device", row.device},       {"run", row.run}};
+    return {{"scene", row.scene},
+            {"technique", row.technique},
+            {"knobs", row.knobs},
+            {"seed", row.seed},
+            {"frame", row.offset},
+            {"ms", row.milliseconds},
+            {"passes", std::move(costs)},
+            {"metrics", row.metrics},
+            {"referenceNoise", row.noise},
+            {"referenceDeviation", row.deviation},
+            {"exposure", row.exposure},
+            {"device", row.device},
+            {"run", row.run}};
 }
 
 ResultRow rowOf(const OrderedJson& json) {
@@ -63,6 +73,8 @@ ResultRow rowOf(const OrderedJson& json) {
         row.passes.push_back({name, numberOf(cost.at("ms")), cost.at("rays").get<std::map<std::string, std::uint64_t>>()});
     for (const auto& [name, value] : json.at("metrics").items()) row.metrics[name] = numberOf(value);
     for (const auto& [name, value] : json.at("referenceNoise").items()) row.noise[name] = numberOf(value);
+    if (json.contains("referenceDeviation"))  // rows of earlier versions have none
+        for (const auto& [name, value] : json.at("referenceDeviation").items()) row.deviation[name] = numberOf(value);
     row.exposure = numberOf(json.at("exposure"));
     return row;
 }

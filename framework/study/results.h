@@ -30,6 +30,7 @@ struct ResultRow {
     std::vector<PassCost> passes;
     std::map<std::string, double> metrics;
     std::map<std::string, double> noise;  ///< of the reference, already taken out of the metrics named here
+    std::map<std::string, double> deviation;  ///< of the reference: standard deviation that it gives all seeds' metrics named here alike
     double exposure = 1;                  ///< that the metrics were measured at
 
     std::uint64_t rays() const;  ///< of all passes and purposes

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <framework/study/run_list.h>
 
+#include <framework/core/files.h>
+
 #include <nlohmann/json.hpp>
 
 #include <charconv>
@@ -25,8 +27,17 @@ std::vector<StudyRun> expandRuns(const Study& study) {
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene)
         for (const std::uint32_t seed : study.seeds)
             for (std::size_t technique = 0; technique < study.techniques.size(); ++technique)
-                for (auto& knobs : combinations(study.techniques[technique])) runs.push_back({scene, technique, std::move(knobs), seed});
+                for (auto& knobs : combinations(study.techniques[technique])) {
+                    const std::uint32_t drawn = drawnSeed(study, technique, knobs, seed);
+                    runs.push_back({scene, technique, std::move(knobs), drawn});
+                }
     return runs;
+}
+
+std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<StudySetting>& knobs, std::uint32_t seed) {
+    if (study.paired) return seed;
+    const Hash place = Hash().add(study.techniques[technique].name + "\n" + knobJson(knobs).dump());
+    return (seed + std::uint32_t(place.a)) % firstReferenceSeed;
 }
 
 nlohmann::ordered_json knobJson(const std::vector<StudySetting>& knobs) {

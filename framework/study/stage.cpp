@@ -140,9 +140,9 @@ void Stage::check() {
     };
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         attempt([&] { samplesParameter(build(study_.reference, {}, scene, 0).graph, study_.reference.where); });
-    for (const StudyRun& run : expandRuns(study_))
-        if (run.seed == study_.seeds.front())
-            attempt([&] { build(study_.techniques[run.technique].graph, run.knobs, run.scene, run.seed); });
+    for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
+        for (const Technique& technique : study_.techniques)
+            for (const auto& knobs : combinations(technique)) attempt([&] { build(technique.graph, knobs, scene, study_.seeds.front()); });
     problems.raise();
 }
 

@@ -13,8 +13,6 @@
 
 namespace lodestir {
 
-/// Studies have seeds below this one, so that no technique ever shares its noise with a reference.
-inline constexpr std::uint32_t firstReferenceSeed = 1u << 31;
 /// Most samples of one frame of a reference: frames of a second or so, because long ones are taken for a hang on GPUs that also draw the
 /// screen.
 inline constexpr std::uint64_t samplesPerFrame = 1 << 23;

@@ -49,6 +49,16 @@ Estimate estimateMean(std::span<const double> values) {
     return estimate;
 }
 
+Estimate withSharedError(Estimate estimate, double deviation) {
+    if (estimate.count < 2 || !(deviation > 0)) return estimate;
+    const double spread = estimate.halfWidth / studentQuantile(0.975, estimate.count - 1), own = spread * spread,
+                 shared = deviation * deviation;
+    constexpr double most = 1000;  // as good as infinitely many
+    const double freedom = own > 0 ? (own + shared) * (own + shared) / (own * own / (estimate.count - 1)) : most;
+    estimate.halfWidth = studentQuantile(0.975, int(std::min(freedom, most))) * std::sqrt(own + shared);
+    return estimate;
+}
+
 Estimate estimateRatio(std::span<const double> numerators, std::span<const double> denominators) {
     const double numerator = estimateMean(numerators).mean, denominator = estimateMean(denominators).mean, ratio = numerator / denominator;
     std::vector<double> residuals;

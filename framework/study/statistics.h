@@ -18,6 +18,9 @@ struct Estimate {
 
 /// NaN mean where there are no values.
 Estimate estimateMean(std::span<const double> values);
+/// The same where all values share an error of known standard deviation: it widens the interval, by Welch's and Satterthwaite's degrees of
+/// freedom.
+Estimate withSharedError(Estimate estimate, double deviation);
 /// mean(numerators) / mean(denominators) of paired values; the interval is that of the linearised ratio (delta method).
 Estimate estimateRatio(std::span<const double> numerators, std::span<const double> denominators);
 /// Of the middle two where the number is even; NaN where there are none.

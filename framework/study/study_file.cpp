@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <framework/core/file_kind.h>
 #include <framework/core/is_file.h>
 #include <framework/image/temporal.h>
 #include <framework/scene/fields.h>
@@ -22,7 +23,7 @@ constexpr int maxFrame = 1'000'000'000, maxSeedCount = 100'000, maxReferenceSamp
 
 class StudyReader {
 public:
-    explicit StudyReader(const Path& file) : json_(Json::load(file)) { study_.file = file; }
+    explicit StudyReader(const Path& file) : json_(load(file)) { study_.file = file; }
 
     Study read() {
         Fields fields(json_, "the study", problems_);
@@ -39,6 +40,7 @@ public:
         if (const Json* frames = fields.find("frames")) readFrames(*frames);
         if (const Json* reference = fields.require("reference")) readReference(*reference);
         readTechniques(fields.require("techniques"));
+        attempt([&] { study_.paired = readFlag(fields.find("paired"), "\"paired\""); });
         if (study_.kind == StudyKind::ensemble) {
             readRuns(fields);
         } else {
@@ -57,6 +59,12 @@ public:
     }
 
 private:
+    static Json load(const Path& file) {
+        expectNoModel(file, FileKind::study);
+        Json json = Json::load(file);
+        expectKind(json, FileKind::study);
+        return json;
+    }
     template <class F> void attempt(const F& part) {
         try {
             part();

@@ -68,6 +68,7 @@ struct Study {
     std::vector<StudyScene> scenes;
     glm::uvec2 size{480, 270};  ///< pixels
     std::vector<std::uint32_t> seeds;  ///< of an ensemble: one a run, in a row
+    bool paired = false;       ///< every technique draws these seeds; else each draws its own, which these are moved to (drawnSeed())
     int warmup = 0;            ///< frames rendered before the event
     int event = 0;             ///< frame of the scene; where the file names none, `warmup`
     std::vector<int> measure;  ///< frames after the event (negative: before), rising
@@ -81,6 +82,9 @@ struct Study {
 
     bool isMeasured(int offset) const { return std::ranges::find(measure, offset) != measure.end(); }
 };
+
+/// Studies have seeds below this one, so that no technique ever shares its noise with a reference.
+inline constexpr std::uint32_t firstReferenceSeed = 1u << 31;
 
 /// An ensemble's reference is rendered in a multiple of so many batches, each a run of its own.
 inline constexpr int referenceBatches = 64;

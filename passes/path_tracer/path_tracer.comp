@@ -22,9 +22,9 @@ struct Path {
     bool ends;          // there is none
 };
 
-// Weight of light that the path runs into, which light sampling would have found with density `pdfLight`.
+// Weight of light that the path runs into, which light sampling would have found with density `pdfLight` (0: never).
 float emissionWeight(float pdf, float pdfLight) {
-    if (pdf == 0 || params.estimator == estimator_bsdf) return 1;
+    if (pdf == 0 || pdfLight == 0 || params.estimator == estimator_bsdf) return 1;
     return params.estimator == estimator_light ? 0 : misWeight(pdf, pdfLight);
 }
 

@@ -11,9 +11,12 @@ struct PathTracer final : Pass {
     Out<Image>       color{this, "color", "mean radiance of this frame's samples, linear Rec. 709", Format::rgba32f};
     Param<int>       spp{this, "spp", 1, {1, 4096}, "samples a pixel and frame"};
     Param<int>       bounces{this, "bounces", 4, {0, 64}, "most scatterings of a path; 1 is direct light only"};
-    Param<Estimator> estimator{this, "estimator", Estimator::both, {"both", "light", "bsdf"},
+    Param<Estimator> estimator{this,
+                               "estimator",
+                               Estimator::both,
+                               {"both", "light", "bsdf"},
                                "how light is found: light sampling and BSDF sampling joined by the balance heuristic, or one of them alone "
-                               "(lights without extent are always sampled)"};
+                               "(lights without extent are always sampled, unlit surfaces never)"};
     Param<bool>      roulette{this, "roulette", true, "Russian roulette on the throughput"};
     Param<int>       rouletteStart{this, "rouletteStart", 3, {1, 64}, "first scattering that roulette may end a path after"};
     Param<bool>      pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};

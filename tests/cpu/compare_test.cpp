@@ -94,6 +94,46 @@ TEST_F(Compare, FlipExposuresCanBeFixed) {
     EXPECT_THROW(compare({"x.exr", "r.exr", "--flip-exposures", "-1,2,0"}), CLI::ParseError);
 }
 
+// The published program means LDR-FLIP where it is given pictures, and HDR-FLIP where it is given radiance.
+TEST_F(Compare, FlipIsOfWhatTheFilesHold) {
+    const ImageData test{2, 1, 3, {1, 0.5f, 0.25f, 0.1f, 0.2f, 0.3f}}, reference{2, 1, 3, {1, 0.25f, 0.5f, 0.1f, 0.1f, 0.1f}};
+    for (const char* ending : {"exr", "png"}) {
+        writeImage(folder / (std::string("shown.") + ending), test);
+        writeImage(folder / (std::string("wanted.") + ending), reference);
+    }
+    const ImageData x = readImage(folder / "shown.png"), r = readImage(folder / "wanted.png");
+    const auto flip = [&](const char* a, const char* b, std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {a, b, "--metrics", "flip", "--json"});
+        testing::internal::CaptureStderr();
+        const double value = Json::parse(compare(more), "stdout").find("flip")->asNumber();
+        return std::pair(value, testing::internal::GetCapturedStderr());
+    };
+    const double displayed = evaluate("flip_ldr", x, r), radiance = evaluate("flip", test, reference);
+    ASSERT_GT(std::abs(displayed - radiance), 0.01);
+    const auto pictures = flip("shown.png", "wanted.png"), light = flip("shown.exr", "wanted.exr"), mixed = flip("shown.png", "wanted.exr");
+    EXPECT_DOUBLE_EQ(pictures.first, displayed);
+    EXPECT_NE(pictures.second.find("flip: LDR-FLIP of pictures as displayed, 67.02 pixels per degree"), std::string::npos) << pictures.second;
+    EXPECT_DOUBLE_EQ(light.first, radiance);
+    EXPECT_NE(light.second.find("flip: HDR-FLIP of radiance, "), std::string::npos) << light.second;
+    EXPECT_DOUBLE_EQ(mixed.first, evaluate("flip", x, reference)) << "one of them holds radiance";
+    EXPECT_DOUBLE_EQ(flip("shown.png", "wanted.png", {"--flip-exposures", "-1,1,2"}).first,
+                     evaluate("flip", x, r, {.flip = {.exposures = FlipExposures{-1, 1, 2}}}))
+        << "who names exposures means HDR-FLIP";
+}
+
+TEST_F(Compare, SpacesBetweenMetricsDoNotCount) {
+    EXPECT_EQ(compare({"x.exr", "r.exr", "--metrics", "mse, mae"}), compare({"x.exr", "r.exr", "--metrics", "mse,mae"}));
+    EXPECT_EQ(compare({"x.exr", "r.exr", "--metrics", " mse ,mae "}), compare({"x.exr", "r.exr", "--metrics", "mse,mae"}));
+}
+
+// If this fails, the error map takes the place of what it was made of.
+TEST_F(Compare, AMapIsNoneOfTheImages) {
+    std::filesystem::create_symlink(folder / "r.exr", folder / "link.exr");
+    const std::vector<std::byte> before = readBytes(folder / "r.exr");
+    for (const char* map : {"x.exr", "r.exr", "link.exr"}) EXPECT_THROW(compare({"x.exr", "r.exr", "--metrics", "mse", "--map", map}), Error) << map;
+    EXPECT_EQ(readBytes(folder / "r.exr"), before);
+}
+
 TEST_F(Compare, MapsAreWritten) {
     compare({"x.exr", "r.exr", "--metrics", "mse", "--map", "map.exr"});
     EXPECT_FLOAT_EQ(readImage(folder / "map.exr").at(0, 0, 0), 10.25f / 3);

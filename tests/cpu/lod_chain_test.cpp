@@ -3,6 +3,7 @@
 #include "lod_surface.h"
 
 #include <framework/scene/lod_chain.h>
+#include <framework/scene/lod_colors.h>
 #include <framework/scene/lod_simplify.h>
 
 #include <gtest/gtest.h>
@@ -140,8 +141,10 @@ TEST(LodChain, TextureHoldsWhatShapeWouldLetGo) {
     for (glm::vec2& uv : sheet.uv0) uv = {uv.x + 0.1f * std::sin(6 * uv.y), uv.y * uv.y * 0.7f + 0.3f * uv.y};
     const LodChain chain = buildLodChain(sheet, {.levels = 3, .ratio = 4});
     ASSERT_EQ(chain.coarser.size(), 2u);
-    EXPECT_LT(chain.coarser[0].error, 1e-6f);
+    EXPECT_LT(chain.coarser[0].measured.distance(), 1e-6f);
     EXPECT_LT(chain.coarser[0].measured.uvLargest, 0.01f);
+    EXPECT_GT(chain.coarser[0].error, 0) << "a texture that slides is seen";
+    EXPECT_LE(chain.coarser[0].error, 1.05f * chain.coarser[0].measured.uvLargest);
     EXPECT_LT(chain.coarser[1].measured.uvLargest, 0.03f);
     EXPECT_LT(chain.coarser[1].measured.uvLostFinest, 0.01f);
 }
@@ -242,6 +245,137 @@ TEST(LodChain, ALevelThatLosesUvsIsNotMade) {
     const LodChain chain = buildLodChain(labels, {});
     EXPECT_EQ(chain.coarser.size(), 0u);
     EXPECT_NE(chain.end.find("50 % of its UVs would have no partner"), std::string::npos) << chain.end;
+}
+
+/// Mean colour over the area of triangles.
+glm::dvec4 meanColor(const MeshLevel& level, const std::vector<glm::uvec3>& triangles, const std::vector<glm::vec4>& colors) {
+    glm::dvec4 sum(0);
+    double total = 0;
+    for (const glm::uvec3& t : triangles) {
+        const glm::dvec3 a(level.positions[t.x]);
+        const double area = glm::length(glm::cross(glm::dvec3(level.positions[t.y]) - a, glm::dvec3(level.positions[t.z]) - a));
+        sum += area / 3 * (glm::dvec4(colors[t.x]) + glm::dvec4(colors[t.y]) + glm::dvec4(colors[t.z]));
+        total += area;
+    }
+    return sum / total;
+}
+
+/// A flat sheet of side 1 with vertex colours.
+MeshLevel painted(int cells, const std::function<glm::vec4(float u, float v)>& color) {
+    MeshLevel sheet = gridSurface(cells, cells, [](float u, float v) { return glm::vec3(u, 0, v); });
+    for (const glm::vec2& uv : sheet.uv0) sheet.colors.push_back(color(uv.x, uv.y));
+    sheet.uv0.clear();
+    return sheet;
+}
+
+// If this fails, a difference that is seen is no error: black for white is a 32nd of the diagonal off, a turn of normals by 60 degrees a 256th.
+TEST(LodError, CountsColoursAndNormalsAsLengths) {
+    MeshLevel sheet = painted(8, [](float, float) { return glm::vec4(0, 0, 0, 1); });
+    const auto diagonal = std::sqrt(2.0f);
+    const LodReference black(sheet);
+    EXPECT_LT(black.measure(sheet.triangles, sheet.colors).largest(), 1e-6f);
+    EXPECT_NEAR(black.measure(sheet.triangles, std::vector(sheet.colors.size(), glm::vec4(1, 0, 0, 1))).largest(), diagonal / 32, 1e-6f);
+    EXPECT_NEAR(black.measure(sheet.triangles, std::vector(sheet.colors.size(), glm::vec4(0, 0, 0, 0.5f))).appearance, diagonal / 64, 1e-6f);
+    EXPECT_EQ(black.measure(sheet.triangles, std::vector(sheet.colors.size(), glm::vec4(1))).distance(), 0);
+
+    // The same sheet a second time, with other normals, is not of the finest level.
+    sheet.colors.clear();
+    const auto count = std::uint32_t(sheet.positions.size());
+    std::vector<glm::uvec3> turned;
+    for (const glm::uvec3& t : sheet.triangles) turned.push_back(t + count);
+    sheet.positions.insert(sheet.positions.end(), sheet.positions.begin(), sheet.positions.begin() + count);
+    sheet.normals.assign(count, {0, 1, 0});
+    sheet.normals.resize(2 * count, {std::sin(pi / 3), std::cos(pi / 3), 0});
+    EXPECT_NEAR(LodReference(sheet).measure(turned).largest(), diagonal / 256, 1e-6f);
+}
+
+// What lies elsewhere is as far as it is: a line between black and white that moved by a hundredth is no more wrong than that.
+TEST(LodError, APatternThatMovedIsAsFarAsItMoved) {
+    const MeshLevel sheet = painted(200, [](float u, float) { return glm::vec4(glm::vec3(u < 0.5f ? 0 : 1), 1); });
+    std::vector<glm::vec4> moved = sheet.colors;
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = glm::vec4(glm::vec3(sheet.positions[v].x < 0.51f ? 0 : 1), 1);
+    const float appearance = LodReference(sheet).measure(sheet.triangles, moved).appearance;
+    EXPECT_LT(appearance, 0.0101f);
+    EXPECT_GT(appearance, 0.005f);
+}
+
+// If this fails, what is flat loses its picture: shape alone would let any vertex go.
+TEST(LodChain, ColoursHoldWhatShapeWouldLetGo) {
+    const auto shade = [](float u, float v) {
+        const float spot = std::hypot(u - 0.3f, v - 0.6f) < 0.2f ? 1.0f : 0.0f;
+        return glm::vec4(spot, 0.2f, 1 - spot, 1);
+    };
+    const MeshLevel sheet = painted(48, shade);
+    const LodChain chain = buildLodChain(sheet, {.levels = 4, .ratio = 2});
+    ASSERT_EQ(chain.coarser.size(), 3u) << chain.end;
+    const glm::dvec4 mean = meanColor(sheet, sheet.triangles, sheet.colors);
+    for (const LodLevel& level : chain.coarser) {
+        EXPECT_LT(level.measured.distance(), 1e-6f);
+        EXPECT_GE(level.error, level.measured.appearance);
+        EXPECT_LT(level.measured.appearance, 0.005f) << "a ninth of what losing the spot costs";
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(meanColor(sheet, level.triangles, level.colors)[c], mean[c], 2e-3) << level.triangles.size();
+    }
+}
+
+// Where colours are linear there is nothing to average: each vertex keeps its own.
+TEST(LodColors, KeepWhatIsLinear) {
+    const MeshLevel sheet = painted(32, [](float u, float v) { return glm::vec4(u, 0.5f * v + 0.25f, 0.3f * u + 0.4f * v, 1 - u); });
+    const LodChain chain = buildLodChain(sheet, {.levels = 3, .ratio = 4});
+    ASSERT_EQ(chain.coarser.size(), 2u) << chain.end;
+    for (const LodLevel& level : chain.coarser) {
+        EXPECT_LT(level.error, 1e-5f);
+        for (const glm::uvec3& t : level.triangles)
+            for (int k = 0; k < 3; ++k)
+                for (int c = 0; c < 4; ++c) EXPECT_NEAR(level.colors[t[k]][c], sheet.colors[t[k]][c], 1e-4f);
+    }
+}
+
+// If this fails, levels drift in colour: vertices that happen to be left speak for all that went.
+TEST(LodColors, AverageNoise) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit;
+    const MeshLevel sheet = painted(64, [&](float u, float) { return glm::vec4(unit(random) < 0.3f + 0.4f * u ? 0.9f : 0.1f, unit(random), 0.5f, 1); });
+    std::vector<glm::uvec3> coarse;  // every eighth vertex
+    for (std::uint32_t y = 0; y < 64; y += 8)
+        for (std::uint32_t x = 0; x < 64; x += 8) {
+            const std::uint32_t a = y * 65 + x;
+            coarse.push_back({a, a + 8 * 65 + 8, a + 8});
+            coarse.push_back({a, a + 8 * 65, a + 8 * 65 + 8});
+        }
+    const std::vector<glm::vec4> colors = coarseColors(sheet, coarse, std::vector<std::uint32_t>(coarse.size(), 0));
+    const glm::dvec4 mean = meanColor(sheet, sheet.triangles, sheet.colors), kept = meanColor(sheet, coarse, colors);
+    for (int c = 0; c < 4; ++c) EXPECT_NEAR(kept[c], mean[c], 1e-3);
+    EXPECT_GT(std::abs(meanColor(sheet, coarse, sheet.colors)[0] - mean[0]), 5e-3) << "the vertices that are left would do, and the test asks nothing";
+    double spread = 0;
+    for (const glm::uvec3& t : coarse) spread = std::max<double>(spread, std::abs(colors[t.x].r - (0.34f + 0.32f * sheet.positions[t.x].x)));
+    EXPECT_LT(spread, 0.25) << "the mean of 0.1 and 0.9 by their chances, from some 100 vertices";
+}
+
+// A leaf that is red on one side and green on the other, a thousandth thick: what is near is not all on one side.
+TEST(LodColors, SidesKeepTheirOwn) {
+    MeshLevel leaf = painted(16, [](float, float) { return glm::vec4(1, 0, 0, 1); });
+    const auto count = std::uint32_t(leaf.positions.size());
+    leaf.normals.assign(count, {0, -1, 0});
+    for (std::size_t t = 0, n = leaf.triangles.size(); t < n; ++t)
+        leaf.triangles.push_back(glm::uvec3(leaf.triangles[t].x, leaf.triangles[t].z, leaf.triangles[t].y) + count);
+    for (std::uint32_t v = 0; v < count; ++v) leaf.positions.push_back(leaf.positions[v] + glm::vec3(0, 1e-3f, 0));
+    leaf.normals.resize(2 * count, {0, 1, 0});
+    leaf.colors.resize(2 * count, {0, 1, 0, 1});
+    leaf.materials.assign(leaf.triangles.size(), 0);
+    const std::vector<glm::vec4> colors = coarseColors(leaf, leaf.triangles, leaf.materials);
+    for (std::uint32_t v = 0; v < 2 * count; ++v) EXPECT_NEAR(colors[v].r, v < count ? 1 : 0, 1e-4f);
+}
+
+// Where triangles meet in one place with other opacities, they are as apart as where colours differ.
+TEST(LodWedges, OpacityParts) {
+    MeshLevel pair;
+    pair.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    pair.colors.assign(6, glm::vec4(1));
+    pair.triangles = {{0, 1, 2}, {3, 4, 5}};
+    pair.materials = {0, 0};
+    EXPECT_EQ(Wedges(pair).positions.size(), 4u);
+    for (std::size_t v = 3; v < 6; ++v) pair.colors[v].a = 0.5f;
+    EXPECT_EQ(Wedges(pair).positions.size(), 6u);
 }
 
 TEST(LodChain, SaysWhyItEndsEarly) {

@@ -185,6 +185,77 @@ TEST_F(LodCommand, AllElseStays) {
     EXPECT_NE(text.find("levels of materials are kept"), std::string::npos) << text;
 }
 
+/// A ball's primitive with colours: red where x < 0, else blue, in bytes.
+json colored(GltfModel& model, const MeshLevel& ball, json primitive) {
+    std::vector<std::uint8_t> colors;
+    for (const glm::vec3& p : ball.positions)
+        for (const int c : {p.x < 0 ? 255 : 0, 0, p.x < 0 ? 0 : 255, 255}) colors.push_back(std::uint8_t(c));
+    primitive["attributes"]["COLOR_0"] = model.accessor(colors, 5121, "VEC4", 4, true);
+    return primitive;
+}
+
+// If this fails, a scan (unlit, with vertex colours) gets no levels, or levels of another colour.
+TEST_F(LodCommand, UnlitAndColouredMeshesGetLevels) {
+    const MeshLevel ball = octahedralSphere(4);
+    model.json["materials"] = {{{"extensions", {{"KHR_materials_unlit", json::object()}}}, {"emissiveFactor", {1, 1, 1}}}};
+    json primitive = colored(model, ball, this->primitive(ball, false));
+    primitive["material"] = 0;
+    model.addMesh(primitive);
+    write();
+    const Json facts = Json::parse(lod({in(), "--out", out(), "--json"}), "stdout");
+    const std::vector<Json>& levels = facts.find("meshes")->items()[0].find("levels")->items();
+    ASSERT_EQ(levels.size(), 4u);
+    const Scene scene = load();
+    ASSERT_EQ(scene.meshes[0].levels.size(), 4u);
+    const auto redness = [](const MeshLevel& level) {
+        double red = 0, total = 0;
+        for (const glm::uvec3& t : level.triangles) {
+            const double area = glm::length(glm::cross(level.positions[t.y] - level.positions[t.x], level.positions[t.z] - level.positions[t.x]));
+            red += area * (level.colors[t.x].r + level.colors[t.y].r + level.colors[t.z].r) / 3;
+            total += area;
+        }
+        return red / total;
+    };
+    for (std::size_t k = 1; k < 4; ++k) {
+        EXPECT_NEAR(redness(scene.meshes[0].levels[k]), redness(scene.meshes[0].levels[0]), 0.01) << k;
+        EXPECT_GE(levels[k].find("error")->asNumber(), levels[k].find("appearance")->asNumber());
+        EXPECT_GT(levels[k].find("appearance")->asNumber(), 0);
+    }
+}
+
+TEST_F(LodCommand, SaysThatADeformingMeshIsMeasuredAtRest) {
+    const MeshLevel ball = octahedralSphere(3);
+    json primitive = this->primitive(ball, false);
+    std::vector<float> moved;
+    for (const glm::vec3& p : ball.positions) moved.insert(moved.end(), {0.1f * p.x, 0, 0});
+    primitive["targets"] = {{{"POSITION", model.positions(moved)}}};
+    model.addMesh(primitive);
+    model.json["meshes"][0]["weights"] = {0};
+    write();
+    EXPECT_NE(lod({in(), "--out", out()}).find("it deforms: its levels are made and measured as the file has it at rest"), std::string::npos);
+    const Scene scene = load();
+    ASSERT_GT(scene.meshes[0].levels.size(), 1u);
+    for (const MeshLevel& level : scene.meshes[0].levels) ASSERT_EQ(level.targets.size(), 1u);
+}
+
+// If this fails, the only copy of a model is gone after a typing mistake.
+TEST_F(LodCommand, TheModelItselfIsKept) {
+    addHills();
+    write();
+    lod({in(), "--out", out()});
+    const std::vector<std::byte> before = readBytes(out());
+    std::filesystem::create_symlink(out(), folder / "link.glb");
+    for (const std::string& name : {out(), (folder / "link.glb").string(), (folder / "." / "out.glb").string()})
+        try {
+            lod({out(), "--out", name});
+            ADD_FAILURE() << name;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("--out is the model itself; name another file, or write over it with --force"), std::string::npos)
+                << error.what();
+        }
+    EXPECT_EQ(readBytes(out()), before);
+}
+
 // A file that went through once goes through again and keeps its chains.
 TEST_F(LodCommand, LevelsThatAreThereAreKept) {
     addHills();
@@ -192,7 +263,7 @@ TEST_F(LodCommand, LevelsThatAreThereAreKept) {
     lod({in(), "--out", out(), "--levels", "3"});
     const std::vector<std::byte> once = readBytes(out());
     testing::internal::CaptureStderr();
-    EXPECT_NE(lod({out(), "--out", out(), "--levels", "5"}).find("1 node has levels already and keeps them"), std::string::npos);
+    EXPECT_NE(lod({out(), "--out", out(), "--levels", "5", "--force"}).find("1 node has levels already and keeps them"), std::string::npos);
     EXPECT_NE(testing::internal::GetCapturedStderr().find("no mesh got any levels"), std::string::npos);
     EXPECT_EQ(load().meshes[0].levels.size(), 3u);
     EXPECT_EQ(readBytes(out()), once);

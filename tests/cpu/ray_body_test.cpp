@@ -51,6 +51,7 @@ TEST(RayBody, WhatADeviceCannotRunIsRefused) {
     EXPECT_EQ(errorOf(four, "packet"), "ray body \"packet\" needs lavapipe with subgroups of 8; this is made up with subgroups of 4; use --rays lane");
     EXPECT_EQ(errorOf(plain, "ray_query"), "ray body \"ray_query\" needs VK_KHR_ray_query, which made up lacks; use --rays lane");
     EXPECT_EQ(errorOf(four, "beam"), "no ray body \"beam\"; known: packet, lane, ray_query");
+    EXPECT_EQ(errorOf(four, "packt"), "no ray body \"packt\"; did you mean \"packet\"?");
     EXPECT_EQ(chooseRayBody(four, "ray_query"), RayBody::rayQuery);
     EXPECT_EQ(chooseRayBody(four, "lane"), RayBody::lane);
 }

@@ -144,6 +144,31 @@ TEST_F(StudyTest, ExpandsToEveryCombinationOnce) {
     for (const char* text : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/3x", "-1/3"}) EXPECT_THROW(readShard(text), Error) << text;
 }
 
+// If this fails, techniques that are all a little too dark by the same luck look like many observations of one fault.
+TEST_F(StudyTest, TechniquesDrawSeedsOfTheirOwnUnlessPaired) {
+    Study study = loadStudy(write(good));
+    std::map<std::string, std::vector<std::uint32_t>> drawn;
+    for (const StudyRun& run : expandRuns(study)) {
+        EXPECT_LT(run.seed, firstReferenceSeed) << "the noise of the reference";
+        if (run.scene == 0) drawn[std::to_string(run.technique) + knobJson(run.knobs).dump()].push_back(run.seed);
+    }
+    ASSERT_EQ(drawn.size(), 7u);
+    std::set<std::uint32_t> all;
+    for (const auto& [name, seeds] : drawn) {
+        EXPECT_EQ(seeds.size(), 3u) << name;
+        all.insert(seeds.begin(), seeds.end());
+    }
+    EXPECT_EQ(all.size(), 7u * 3u) << "a seed is drawn twice";
+    const std::vector<StudyRun> again = expandRuns(loadStudy(write(good)));
+    for (std::size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i].seed, expandRuns(study)[i].seed) << "a study that is resumed";
+
+    std::string text = good;
+    text.insert(text.find("\"seeds\""), "\"paired\": true, ");
+    study = loadStudy(write(text));
+    ASSERT_TRUE(study.paired);
+    for (const StudyRun& run : expandRuns(study)) EXPECT_LE(run.seed, 3u);
+}
+
 // Tables of Student's t, two-sided 95 %.
 TEST(Statistics, StudentQuantilesAreThoseOfTheTables) {
     const std::vector<std::pair<int, double>> table{{1, 12.7062}, {2, 4.30265},  {3, 3.18245},  {4, 2.77645},
@@ -181,6 +206,28 @@ TEST(Statistics, IntervalsHoldTheMeanNineteenTimesInTwenty) {
         holds += std::abs(e.mean - 3) <= e.halfWidth;
     }
     EXPECT_NEAR(double(holds) / trials, 0.95, 4 * std::sqrt(0.95 * 0.05 / trials));
+}
+
+// If this fails, a bias of the reference's own noise is taken for the technique's: all seeds share it.
+TEST(Statistics, IntervalsHoldTheMeanWhereAllValuesShareAnError) {
+    std::mt19937 random(2);
+    std::normal_distribution<double> normal;
+    int holds = 0, narrow = 0;
+    constexpr int trials = 4000;
+    constexpr double spread = 2, shared = 1.5;
+    for (int trial = 0; trial < trials; ++trial) {
+        const double common = shared * normal(random);
+        std::vector<double> values(8);
+        for (double& value : values) value = 3 + common + spread * normal(random);
+        const Estimate own = estimateMean(values), whole = withSharedError(own, shared);
+        EXPECT_EQ(own.mean, whole.mean);
+        narrow += std::abs(own.mean - 3) <= own.halfWidth;
+        holds += std::abs(whole.mean - 3) <= whole.halfWidth;
+    }
+    EXPECT_NEAR(double(holds) / trials, 0.95, 4 * std::sqrt(0.95 * 0.05 / trials));
+    EXPECT_LT(double(narrow) / trials, 0.75) << "the error is too small to ask anything of the test";
+    EXPECT_TRUE(std::isnan(withSharedError(estimateMean(std::vector<double>{1}), 1).halfWidth));
+    EXPECT_EQ(withSharedError(estimateMean(std::vector<double>{1, 2}), 0).halfWidth, estimateMean(std::vector<double>{1, 2}).halfWidth);
 }
 
 ImageData noisy(const ImageData& truth, double sigma, std::mt19937& random) {
@@ -227,6 +274,30 @@ TEST(Halves, TheNoiseOfTheReferenceIsTakenOut) {
         expected += sigma * sigma / (mean * mean + 0.01) / double(truth.pixelCount());
     }
     EXPECT_NEAR(estimateMean(relative).mean, expected, 0.06 * expected);
+}
+
+// The bias of what is right is the reference's own, whose standard deviation is sigma / sqrt(2) for a value of (A + B) / 2.
+TEST(Halves, TheNoiseOfTheReferenceInABiasIsKnown) {
+    std::mt19937 random(11);
+    const ImageData truth = gradient();
+    constexpr double sigma = 0.1;
+    double mean = 0, squares = 0, told = 0;
+    for (const float value : truth.values) mean += double(value) / double(truth.values.size());
+    constexpr int draws = 200;
+    for (int i = 0; i < draws; ++i) {
+        const Halves halves(noisy(truth, sigma, random), noisy(truth, sigma, random));
+        const double bias = measureError("bias", truth, halves, {.exposure = 1});
+        squares += bias * bias / draws;
+        told += referenceDeviation("bias", halves, {.exposure = 1}) / draws;
+    }
+    const double expected = sigma / std::sqrt(2 * double(truth.values.size())) / mean;
+    EXPECT_NEAR(told, expected, 0.02 * expected);
+    EXPECT_NEAR(std::sqrt(squares), expected, 0.2 * expected) << "four sigmas of a deviation over 200 draws";
+    const Halves halves(noisy(truth, sigma, random), noisy(truth, sigma, random));
+    EXPECT_EQ(referenceDeviation("mae", halves, {.exposure = 1}), 0);
+    std::vector<bool> half(truth.pixelCount());
+    for (std::size_t p = 0; p < half.size(); ++p) half[p] = p % 2 == 0;
+    EXPECT_NEAR(referenceDeviation("bias", halves, {.exposure = 1, .mask = half}), std::sqrt(2.0) * expected, 0.1 * expected);
 }
 
 TEST(Halves, AnErrorIsWhatItIs) {

@@ -96,5 +96,23 @@ TEST_F(Estimators, PointLight) {
     expectEqual(frames("room", "bsdf", {{"spp", 48}, {"bounces", 3}, {"estimator", "bsdf"}}, "3"), both, "BSDF sampling against both");
 }
 
+// An unlit ceiling sends out what a lamp of that radiance would, but no light sample looks for it: all estimators have its light from the BSDF.
+TEST_F(Estimators, UnlitSurfaceIsALampThatNobodySamples) {
+    std::vector<Quad> lamp = room(false), unlit = lamp;
+    constexpr std::size_t ceiling = 3;  // nothing is behind it: an unlit surface is seen through from there, a lamp is not
+    lamp[ceiling].paint = {.color = Point(0), .emission = {0.9, 0.8, 0.7}};
+    unlit[ceiling].paint = {.color = lamp[ceiling].paint.emission, .layers = {{"KHR_materials_unlit", OrderedJson::object()}}};
+    for (const auto& [name, quads] : {std::pair("lamp", lamp), std::pair("unlit", unlit)}) {
+        writeModel(folder, name, quads);
+        writeScene(folder, name, inside, constantEnvironment(Point(0)));
+    }
+    const auto expected = frames("lamp", "lamp", {{"spp", 16}, {"bounces", 4}}, "1");
+    for (const auto& [estimator, seed] : {std::pair("both", "2"), std::pair("light", "3"), std::pair("bsdf", "4")})
+        expectEqual(frames("unlit", estimator, {{"spp", 32}, {"bounces", 4}, {"estimator", estimator}}, seed), expected,
+                    std::string("unlit, ") + estimator);
+    const Output scene = lodestir({"scene", (folder / "unlit.json").string(), "--json"});
+    EXPECT_EQ(OrderedJson::parse(scene.out)["triangles"]["emissive"], 0) << "none is a light";
+}
+
 }  // namespace
 }  // namespace lodestir::test

@@ -50,6 +50,36 @@ TEST_F(KilledRun, LeavesNoHalfFile) {
     }
 }
 
+// If this fails, a long run that is stopped leaves images of which nothing tells how they were made.
+TEST_F(KilledRun, WhatIsInterruptedSaysWhatIsDone) {
+    write("graph.json", {{"format", 1},
+                         {"scene", (sourceFolder / "scenes/cornell.json").string()},
+                         {"frame", {{"size", {64, 48}}, {"count", 100000}, {"seed", 1}}},
+                         {"passes", {{"hits", {{"type", "visibility"}}}}},
+                         {"show", "hits.normal"}});
+    for (const auto& [signal, name] : {std::pair(SIGINT, "SIGINT"), std::pair(SIGTERM, "SIGTERM")}) {
+        const Path out = folder / name;
+        Process process({LODESTIR_BINARY, "run", (folder / "graph.json").string(), "--out", out.string(), "--trace", (out / "trace.json").string()});
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (filesOf(out).size() < 8 && process.running() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        process.kill(signal);
+        const Output output = process.wait(std::chrono::seconds(30));
+        EXPECT_EQ(output.exitCode, 1) << output.err;
+        EXPECT_NE(output.err.find(std::string("interrupted by ") + name + " after "), std::string::npos) << output.err;
+        const OrderedJson json = readJson(out / "run.json");
+        EXPECT_EQ(json["interrupted"], name);
+        const std::size_t done = json["frames"].size();
+        EXPECT_GE(done, 3u);
+        for (std::size_t frame = 0; frame < done; ++frame) {
+            EXPECT_EQ(json["frames"][frame]["frame"], frame);
+            EXPECT_NO_THROW(readExr(out / ("hits.normal." + std::to_string(frame) + ".exr")));
+        }
+        EXPECT_EQ(filesOf(out).size(), 2 * done + 2) << "images of more frames than run.json tells of";
+        EXPECT_TRUE(std::filesystem::exists(out / "trace.json"));
+    }
+}
+
 /// Names that begin with a dot, in a folder and all below: what was being written aside.
 std::vector<std::string> scrapsIn(const Path& folder) {
     std::vector<std::string> names;

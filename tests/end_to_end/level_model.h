@@ -36,6 +36,7 @@ inline glm::dvec3 flat(glm::dvec2 p) { return {2 * p.x - 1, 0, 2 * p.y - 1}; }
 
 struct LevelModelLook {
     glm::dvec3 emission{0};
+    bool unlit = false;
     std::optional<glm::dvec3> moveTo = {};  ///< over one second, turning about +Y by 40 degrees meanwhile
 };
 
@@ -49,6 +50,10 @@ inline Path writeLevels(const Path& folder, const std::string& name, const std::
                                 {"doubleSided", true},
                                 {"emissiveFactor", {hue.x, hue.y, hue.z}},
                                 {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}}};
+    if (look.unlit) {
+        model.json["extensionsUsed"].push_back("KHR_materials_unlit");
+        model.json["materials"][0]["extensions"]["KHR_materials_unlit"] = nlohmann::json::object();
+    }
     for (std::size_t l = 0; l < levels.size(); ++l) {
         const SheetLevel& level = levels[l];
         std::vector<float> positions, uvs, normals;

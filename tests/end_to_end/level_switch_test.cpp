@@ -122,6 +122,32 @@ TEST_F(Images, EmitterStaysAtItsFinest) {
     }
 }
 
+// An unlit mesh emits, but is no light: it switches like any other, at every level what it emits is seen, and paths that end on it are reused
+// across the switch without a gain or a loss.
+TEST_F(Images, UnlitMeshSwitches) {
+    const std::vector<SheetLevel> levels{{.cells = 8, .place = flat}, {.cells = 4, .place = flat}};
+    writeLevels(folder.path, "scan", levels, {.unlit = true});
+    const Path scene = write("unlit", {"scan"}, switchAt(3), {{"instances", OrderedJson::array({OrderedJson{{"model", "scan"}}})}});
+    Frames frames(scene, {64, 36}, reuseNodes(), {"shade.color", "hits.hits"});
+    for (int frame = 0; frame < 5; ++frame) {
+        frames.run();
+        std::size_t seen = 0;
+        const ImageData image = frames.image("shade.color");
+        const std::vector<PrimaryHit> hits = frames.records<PrimaryHit>("hits.hits");
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            if (hits[i].primitive == NONE) continue;
+            ++seen;
+            EXPECT_EQ(hits[i].primitive >= 128, frame >= 3) << "frame " << frame;
+            const bool isInside = std::ranges::all_of(std::array<std::size_t, 4>{i - 64, i - 1, i + 1, i + 64}, [&](std::size_t next) {
+                return next < hits.size() && hits[next].primitive != NONE;
+            });
+            if (!isInside) continue;  // a path of the pixel may pass beside the edge
+            EXPECT_NEAR(image.values[i * std::size_t(image.channels)], 0.7f, 1e-3f) << "frame " << frame << ", pixel " << i;
+        }
+        EXPECT_GT(seen, 100u);
+    }
+}
+
 /// The coarse level is a ridge that hides much of what the camera saw.
 glm::dvec3 ridge(glm::dvec2 p) {
     const glm::dvec3 b = bowl(p);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reuse against path tracing on scenes that each stress one mechanism: short runs with fixed seeds, to one percent of the energy. The studies
 // of the same names go to 0.3 %.
+#include "model.h"
 #include "program.h"
 
 #include <framework/study/ensemble.h>
@@ -43,6 +44,31 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                                          Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64}, Case{"ensemble_moving", 8, 960},
                                          Case{"ensemble_lens", 8, 96}),
                          [](const auto& test) { return test.param.scene; });
+
+// Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
+TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
+    std::string name = testing::TempDir() + "lodestir_unlit_XXXXXX";
+    const Path folder = ::mkdtemp(name.data());
+    std::vector<Quad> quads = box({0, 0, 0}, {4, 3, 4}, {.color = {0.7, 0.6, 0.5}}, /* inward = */ true);
+    quads.push_back({{0.2, 2.9, 0.2}, {3.6, 0, 0}, {0, 0, 3.6}, {.color = {0.9, 0.8, 0.7}, .layers = {{"KHR_materials_unlit", OrderedJson::object()}}}});
+    for (Quad& quad : box({0.8, 0, 1}, {1.9, 1.2, 2.2}, {.color = {0.6, 0.6, 0.3}, .roughness = 0.3})) quads.push_back(quad);
+    writeModel(folder, "unlit", quads);
+    writeScene(folder, "unlit", {.position = {3.3, 1.9, 3.8}, .target = {1.4, 1.0, 1.2}, .fovy = 65}, constantEnvironment(Point(0)));
+    EnsembleJudge judge({.scene = folder / "unlit.json",
+                         .size = {32, 18},
+                         .warmup = 3,
+                         .frame = 3,
+                         .runs = 64,
+                         .reference = graph("path_tracer.json", "no accumulation", {}),
+                         .referenceSamples = 2048});
+    for (const char* technique : {"both", "light"}) {
+        const EnsembleResult reuse = judge.judge(
+            {.graph = sourceFolder / "graphs/restir_pt.json", .variant = {}, .set = {{"initial.candidates", Json(4)}, {"initial.technique", Json(technique)}, {"spatial.radius", Json(5)}}, .port = {}, .where = {}});
+        EXPECT_EQ(reuse.verdict, Verdict::unbiased) << technique << ": " << reuse.reason;
+        EXPECT_LE(reuse.halfWidth, 0.01);
+    }
+    std::filesystem::remove_all(folder);
+}
 
 }  // namespace
 }  // namespace lodestir::test

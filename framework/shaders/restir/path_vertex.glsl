@@ -41,9 +41,10 @@ LightPoint pathLight(World w, uvec2 seed, uint vertex, uint candidate) {
 
 uint lightCandidates(ShiftRules rules, uint vertex) { return vertex == 1u ? rules.lightCandidates : 1u; }
 
-/// omega_t of a light that the BSDF at `vertex` found with total density pdf (0: by a delta lobe, or it is seen by the camera).
+/// omega_t of a light that the BSDF at `vertex` found with total density pdf (0: by a delta lobe, or it is seen by the camera), and light
+/// sampling with pdfLight (0: never, it is an unlit surface).
 float emissionShare(ShiftRules rules, uint vertex, float pdf, float pdfLight) {
-    if (pdf == 0.0 || rules.technique == TECHNIQUE_BSDF) return 1.0;
+    if (pdf == 0.0 || pdfLight == 0.0 || rules.technique == TECHNIQUE_BSDF) return 1.0;
     return rules.technique == TECHNIQUE_LIGHT ? 0.0 : misWeight(pdf, float(lightCandidates(rules, vertex)) * pdfLight);
 }
 

@@ -211,7 +211,8 @@ struct World {
     LODESTIR_ARRAY_OF(PrimitiveArray) primitives;
     LODESTIR_ARRAY_OF(LevelArray) meshLevels;        // mesh m at level l: meshLevels[m * LEVELS + l]
     LODESTIR_ARRAY_OF(MeshArray) meshes;
-    LODESTIR_ARRAY_OF(UintArray) emitters;           // of each primitive: its place among its mesh's emissive triangles, NONE: not emissive
+    LODESTIR_ARRAY_OF(UintArray)
+    emitters;  // of each primitive: its place among its mesh's lights, NONE: no light (unlit surfaces emit, but aren't sampled)
     LODESTIR_ARRAY_OF(Vec4Array) positions;          // xyz, object space
     LODESTIR_ARRAY_OF(VertexArray) vertices;
     LODESTIR_ARRAY_OF(MaterialArray) materials;
