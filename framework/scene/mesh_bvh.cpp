@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/mesh_bvh.h>
 
+#include <framework/scene/panes.h>
+
 namespace lodestir {
 
 Box boundsOf(const Mesh& mesh) {
@@ -11,9 +13,12 @@ Box boundsOf(const Mesh& mesh) {
 
 Bvh meshBvh(const Scene& scene, const Mesh& mesh, std::size_t level) {
     const MeshLevel& shape = mesh.levels[level];
+    const bool panes = lightsShineThroughPanes(scene);
+    std::vector<bool> asked;
+    for (const Material& m : scene.materials) asked.push_back(m.alphaMode == AlphaMode::mask || (panes && isPane(m)));
     std::vector<std::uint32_t> masks(shape.triangles.size(), 0);
     for (std::size_t t = 0; t < masks.size(); ++t)
-        if (scene.materials[shape.materials[t]].alphaMode == AlphaMode::mask) masks[t] = shape.materials[t] + 1;
+        if (asked[shape.materials[t]]) masks[t] = shape.materials[t] + 1;
     return cachedBvh({shape.positions, shape.triangles, masks, boundsOf(mesh)});
 }
 

@@ -7,6 +7,7 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/level_policy.h>
+#include <framework/scene/panes.h>
 #include <framework/scene/scene_file.h>
 
 #include <fmt/format.h>
@@ -54,12 +55,10 @@ void focusModelCamera(Scene& scene) {
     scene.camera.keys[0].focus = depth > 0 ? depth : std::max(glm::length(bounds[1] - bounds[0]), 1e-6f);
 }
 
-/// Light sampling alone finds lights without extent, and it ends at the first surface.
+/// Light sampling alone finds lights without extent, along straight segments.
 void noteUnreachableLight(Scene& scene) {
-    constexpr float clearest = 0.032f;  // below it transmission is a delta lobe (ALPHA_DELTA)
-    const auto passes = [](const Material& m) { return m.alphaMode == AlphaMode::blend || (m.transmission > 0 && m.roughness < clearest); };
-    if (!scene.lights.empty() && std::any_of(scene.materials.begin(), scene.materials.end(), passes))
-        scene.notes.push_back("point, spot and directional lights do not shine through blended or clear surfaces");
+    if (!scene.lights.empty() && std::ranges::any_of(scene.materials, [](const Material& m) { return m.solid && isClear(m); }))
+        scene.notes.push_back("point, spot and directional lights do not shine through clear solids, which refract");
 }
 
 }  // namespace

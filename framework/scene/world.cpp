@@ -6,6 +6,7 @@
 #include <framework/scene/level_policy.h>
 #include <framework/scene/light_list.h>
 #include <framework/scene/mipmaps.h>
+#include <framework/scene/panes.h>
 
 #include <glm/gtc/matrix_access.hpp>
 
@@ -59,7 +60,7 @@ MaterialRecord materialRecord(const Material& m, bool vertexColor) {
     r.flags = (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0) | (m.alphaMode == AlphaMode::mask ? MATERIAL_MASK : 0) |
               (m.alphaMode == AlphaMode::blend ? MATERIAL_BLEND : 0) | (m.solid ? MATERIAL_SOLID : 0) |
               (m.emission != glm::vec3(0) ? MATERIAL_EMISSIVE : 0) | (vertexColor ? MATERIAL_VERTEX_COLOR : 0) |
-              (m.unlit ? MATERIAL_UNLIT : 0);
+              (m.unlit ? MATERIAL_UNLIT : 0) | (isPane(m) ? MATERIAL_PANE : 0);
     r.layers = NONE;
     r.baseColorMap = slotRecord(m.baseColorMap);
     r.metallicRoughnessMap = slotRecord(m.metallicRoughnessMap);

@@ -16,8 +16,8 @@ struct Path {
     vec3 throughput;
     float pdf;          // solid-angle density of the last direction; 0: camera or delta lobe, which light sampling can't compete with
     Ray ray;            // to be traced next
-    bool toLight;       // it asks whether a light sample is visible
-    vec3 direct;        // what the light sample adds if it is
+    bool toLight;       // it asks how much is seen of a light sample
+    vec3 direct;        // what the light sample adds where nothing is in the way
     Ray onward;         // the path's own next ray, while `ray` goes to a light
     bool ends;          // there is none
 };
@@ -108,7 +108,7 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
 
 bool pathStep(inout Path p, World w, Hit hit) {
     if (!p.toLight) return scatter(p, w, hit);
-    if (hit.primitive == NONE) p.radiance += p.direct;
+    p.radiance += p.direct * transmittance(hit);
     p.toLight = false;
     p.ray = p.onward;
     return !p.ends;

@@ -79,7 +79,7 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
-    if (hit.primitive == NONE) p.radiance += p.unshadowed;
+    p.radiance += p.unshadowed * transmittance(hit);
     return false;
 }
 

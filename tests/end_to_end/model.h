@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct Paint {
     double ior = 1;  ///< 1: no reflecting layer over the diffuse base
     double transmission = 0;
     bool solid = false;
+    std::optional<double> alpha;  ///< of a material that blends
     OrderedJson layers = OrderedJson::object();  ///< further extensions of the material
 };
 
@@ -90,7 +92,7 @@ inline void writeModel(const Path& folder, const std::string& name, const std::v
         const Paint& paint = q.paint;
         const double strength = std::max({paint.emission.x, paint.emission.y, paint.emission.z, 1e-9});
         OrderedJson material = {{"pbrMetallicRoughness",
-                                 {{"baseColorFactor", {paint.color.x, paint.color.y, paint.color.z, 1}},
+                                 {{"baseColorFactor", {paint.color.x, paint.color.y, paint.color.z, paint.alpha.value_or(1)}},
                                   {"metallicFactor", paint.metallic},
                                   {"roughnessFactor", paint.roughness}}},
                                 {"extensions", {{"KHR_materials_ior", {{"ior", paint.ior}}}}}};
@@ -98,6 +100,7 @@ inline void writeModel(const Path& folder, const std::string& name, const std::v
             material["emissiveFactor"] = toJson(paint.emission / strength);
             material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
         }
+        if (paint.alpha) material["alphaMode"] = "BLEND";
         if (paint.transmission > 0) material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", paint.transmission}};
         if (paint.solid) material["extensions"]["KHR_materials_volume"] = {{"thicknessFactor", 1.0}};
         material["extensions"].update(paint.layers);

@@ -71,17 +71,19 @@ TEST_F(RayBodies, FirstHitsAgree) {
 
 // Random numbers do not depend on the body either, so images differ only where a ray met another triangle or rounding tipped a choice.
 TEST_F(RayBodies, ImagesAgree) {
-    const auto best = frames(bodies()[0], "cornell_glossy.json");
-    for (const std::string& body : bodies()) {
-        if (body == bodies()[0]) continue;
-        const auto other = frames(body, "cornell_glossy.json");
-        ASSERT_FALSE(HasFailure());
-        std::size_t differ = 0;
-        for (std::size_t i = 0; i < best[0].values.size(); ++i)
-            differ += std::abs(best[0].values[i] - other[0].values[i]) > 1e-3f * (1 + std::abs(best[0].values[i]));
-        EXPECT_LE(differ, best[0].values.size() / 20) << body;
-        const Comparison comparison = compareFrames(best, other);
-        EXPECT_TRUE(comparison.equal()) << body << ": " << comparison.text;
+    for (const char* scene : {"cornell_glossy.json", "ensemble_panes.json"}) {
+        const auto best = frames(bodies()[0], scene);
+        for (const std::string& body : bodies()) {
+            if (body == bodies()[0]) continue;
+            const auto other = frames(body, scene);
+            ASSERT_FALSE(HasFailure());
+            std::size_t differ = 0;
+            for (std::size_t i = 0; i < best[0].values.size(); ++i)
+                differ += std::abs(best[0].values[i] - other[0].values[i]) > 1e-3f * (1 + std::abs(best[0].values[i]));
+            EXPECT_LE(differ, best[0].values.size() / 20) << scene << ", " << body;
+            const Comparison comparison = compareFrames(best, other);
+            EXPECT_TRUE(comparison.equal()) << scene << ", " << body << ": " << comparison.text;
+        }
     }
 }
 

@@ -123,6 +123,30 @@ TEST_F(Mutations, AbsorbedTwice) {
     expectFound("F there and back", "absorbed_twice", share > 1e-4, share, RoundTrips::shareAbove(right.all.errorsF, 1e-3f));
 }
 
+// What panes take of a light's last segment is missing in F but not behind x_k, or where the segment was traced anew.
+TEST_F(Mutations, DimmedInPart) {
+    plant(folder.path, {{"bright_suffix", "initial_sampling", "restir/reservoir.glsl", "if (s.k > 0u && s.k < s.d) r.radiance *= share;", ""},
+                        {"bright_shift", "shift_check", "restir/shift.glsl", "dimLight(t.path, t.shape, transmittance(hit));", ""}});
+    ASSERT_FALSE(HasFailure());
+    OrderedJson passes{{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})}, {"bright", node("bright_suffix", OrderedJson::object(), {{"bounces", 3}})}};
+    passes["right"] = node("shift_check", pathsOf("initial", "initial"));
+    passes["bright_suffix"] = node("shift_check", pathsOf("bright", "bright"));
+    passes["bright_shift"] = node("bright_shift", pathsOf("initial", "initial"));
+    for (const char* check : {"right", "bright_suffix", "bright_shift"}) {
+        passes[check]["set"]["suffix"] = "kept";
+        passes[check]["in"]["rules"] = check == std::string("bright_suffix") ? "bright.rules" : "initial.rules";
+    }
+    ShiftSession session({.scene = sceneFile("ensemble_panes"),
+                          .size = {64, 64},
+                          .passes = passes,
+                          .checks = {"right", "bright_suffix", "bright_shift"},
+                          .libraries = {folder.path}});
+    auto trips = tripsOf(session, {"right", "bright_suffix", "bright_shift"}, 8);
+    const auto off = [&](const char* check) { return RoundTrips::shareAbove(trips[check].all.errorsF, 1e-3f); };
+    EXPECT_LE(off("right"), 1e-4);
+    for (const char* fault : {"bright_suffix", "bright_shift"}) expectFound("F there and back", fault, off(fault) > 1e-4, off(fault), off("right"));
+}
+
 /// Energies of images over independent frames or chains of them.
 using Energies = std::map<std::string, std::vector<double>>;
 Energies energiesOf(ShiftSession& session, const std::vector<std::string>& images, int chains, int length) {

@@ -5,6 +5,7 @@
 #include <framework/shaders/world/world.h>
 #include <tests/cpu/triangle_soup.h>
 
+#include <glm/gtc/matrix_access.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +28,9 @@ public:
         glm::mat4 toWorld;
     };
 
-    /// All levels share a grid. `masked` triangles (every n-th, 0: none) let rays through at half of them: materials 1 and 2.
-    void addMesh(std::vector<Soup> levels, std::uint32_t masked = 0) {
+    /// All levels share a grid. `masked` triangles (every n-th, 0: none) let rays through at half of them: materials 1 and 2; panes, every n-th
+    /// likewise, some of the light: materials 3, 4 and 5.
+    void addMesh(std::vector<Soup> levels, std::uint32_t masked = 0, std::uint32_t panes = 0) {
         Box box;
         for (const Soup& soup : levels)
             for (const glm::vec3 p : soup.positions) box = {glm::min(box.low, p), glm::max(box.high, p)};
@@ -42,13 +44,15 @@ public:
             const Soup& soup = levels[l];
             std::vector<std::uint32_t> masks(soup.triangles.size(), 0);
             for (std::size_t i = 0; masked != 0 && i < masks.size(); i += masked) masks[i] = 1 + std::uint32_t(i / masked % 2) + 1;
+            for (std::size_t i = 0; panes != 0 && i < masks.size(); i += panes) masks[i] = 3 + std::uint32_t(i / panes % 3) + 1;
             const Bvh bvh = buildBvh({soup.positions, soup.triangles, masks, box});
             const auto firstTriangle = std::uint32_t(triangles_.size());
             roots_.push_back(appendNodes(bvh, nodes_, firstTriangle));
             meshLevels_.push_back({firstTriangle, std::uint32_t(bvh.triangles.size()), 0});
             triangles_.insert(triangles_.end(), bvh.triangles.begin(), bvh.triangles.end());
             for (const std::uint32_t t : bvh.order) {
-                primitives_.push_back({0, 0, 0, masks[t] == 0 ? 0 : masks[t] - 1});
+                const auto first = std::uint32_t(3 * primitives_.size());
+                primitives_.push_back({first, first + 1, first + 2, masks[t] == 0 ? 0 : masks[t] - 1});
                 corners_.push_back({soup.positions[soup.triangles[t].x], soup.positions[soup.triangles[t].y], soup.positions[soup.triangles[t].z]});
             }
             mesh.push_back({bvh, firstTriangle});
@@ -81,10 +85,22 @@ public:
         w.topRoot = top.root == bvh_ref::empty ? top.root : appendNodes(top, nodes, 0);
         w.gridBase = top.gridBase;
         w.gridScale = top.gridScale;
-        std::vector<MaterialRecord> materials(3);
-        for (MaterialRecord& m : materials) m.baseColor = glm::vec4(1), m.alphaCutoff = 0.5f, m.baseColorMap.texture = NONE;
+        std::vector<MaterialRecord> materials(6);
+        for (MaterialRecord& m : materials) {
+            m.baseColor = glm::vec4(1);
+            m.alphaCutoff = 0.5f;
+            m.roughness = 1;
+            m.layers = m.baseColorMap.texture = m.metallicRoughnessMap.texture = m.normalMap.texture = m.transmissionMap.texture = NONE;
+        }
         materials[1].flags = materials[2].flags = MATERIAL_MASK;
         materials[1].baseColor.a = 0.2f;
+        materials[3].flags = materials[4].flags = MATERIAL_PANE | MATERIAL_BLEND;
+        materials[3].baseColor.a = 0.25f;
+        materials[4].baseColor.a = 0.5f;
+        materials[5].flags = MATERIAL_PANE;  // thin glass that reflects nothing
+        materials[5].baseColor = tint;
+        materials[5].roughness = 0;
+        materials[5].transmission = materials[5].ior = 1;
         const auto keep = [&](auto& values, const char* name) {
             if (values.empty()) values.emplace_back();
             return buffers_.emplace_back(gpu::makeBuffer(device, std::as_bytes(std::span(values)), name)).address();
@@ -100,16 +116,27 @@ public:
         w.instanceCount = std::uint32_t(placed_.size());
         w.meshLevels = keep(meshLevels_, "mesh levels");
         std::vector<InstanceRecord> records(placed_.size());
-        for (std::size_t i = 0; i < records.size(); ++i) records[i].mesh = placed_[i].mesh;
+        for (std::size_t i = 0; i < records.size(); ++i) {
+            records[i].mesh = placed_[i].mesh;
+            for (int row = 0; row < 3; ++row) records[i].toWorld[row] = glm::row(placed_[i].toWorld, row);
+        }
+        std::vector<glm::vec4> positions;
+        for (const auto& triangle : corners_)
+            for (const glm::vec3& corner : triangle) positions.emplace_back(corner, 0);
+        w.positions = keep(positions, "positions");
+        std::vector<VertexRecord> vertices(positions.size());
+        w.vertices = keep(vertices, "vertices");
         w.instances = keep(records, "instance records");
         if (device.facts().rayQuery) uploadQueries(device, w);
         return w;
     }
 
     /// Nearest hit by trying every triangle in double precision; `other` gets the distance of the next one.
-    Hit tryAll(const Ray& ray, double& other) const {
+    /// What is left of the light of an any-hit ray that panes don't end goes to `light`.
+    Hit tryAll(const Ray& ray, double& other, glm::dvec3& light) const {
         double best = ray.tMax;
         other = farAway;
+        light = glm::dvec3(1);
         Hit hit{ray.tMax, {}, NONE, NONE};
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             const glm::dmat4& toObject = toObject_[i];
@@ -121,6 +148,7 @@ public:
                 const glm::dvec3 v0(corners_[t][0]), v1(corners_[t][1]), v2(corners_[t][2]);
                 const double distance = meet<double>(origin, direction, v0, v1 - v0, v2 - v0);
                 if (!(distance > ray.tMin)) continue;
+                if (distance < ray.tMax) light *= shareOf(primitives_[t].material);
                 if (distance < best) {
                     other = best;
                     best = distance;
@@ -168,6 +196,11 @@ private:
         gpu::runOnce(device, [&](gpu::Commands& commands) { structures_.back()->build(commands); });
         w.tlas = structures_.back()->address();
     }
+    /// Of light that goes on.
+    static glm::dvec3 shareOf(std::uint32_t material) {
+        return material == 3 ? glm::dvec3(0.75) : material == 4 ? glm::dvec3(0.5) : material == 5 ? glm::dvec3(tint) : glm::dvec3(0);
+    }
+    static constexpr glm::vec4 tint{0.9f, 0.6f, 0.3f, 1};
     std::vector<std::vector<Level>> meshes_;
     std::vector<Placed> placed_;
     std::vector<glm::dmat4> toObject_;  ///< parallel to placed_
@@ -221,20 +254,24 @@ protected:
     }
 
     /// Every body against trying all triangles: the same distance within 1e-4, another triangle only at an equal distance, and for at
-    /// most one ray in 10 000 neither (rays through an edge, where rounding decides). Any-hit rays: the same occlusion.
+    /// most one ray in 10 000 neither (rays through an edge, where rounding decides). Any-hit rays: the same occlusion, or the same light.
     void expectAgreement(TraceScene& scene, const std::vector<Ray>& rays) {
         const World w = scene.upload(*device_);
         std::vector<Hit> truth(rays.size());
         std::vector<double> other(rays.size());
-        for (std::size_t i = 0; i < rays.size(); ++i) truth[i] = scene.tryAll(rays[i], other[i]);
+        std::vector<glm::dvec3> light(rays.size());
+        std::vector<Ray> shadowRays = rays;
+        for (Ray& ray : shadowRays) ray.panes = 1;
+        for (std::size_t i = 0; i < rays.size(); ++i) truth[i] = scene.tryAll(rays[i], other[i], light[i]);
         const auto found = std::ranges::count_if(truth, [](const Hit& h) { return h.primitive != NONE; });
         EXPECT_GT(found, std::ptrdiff_t(rays.size() / 20));
         for (const auto& [name, body] : bodies_) {
-            const std::vector<Hit> hits = trace(body, w, rays, false), any = trace(body, w, rays, true);
-            std::size_t wrong = 0, wrongAny = 0, unequal = 0;
+            const std::vector<Hit> hits = trace(body, w, rays, false), any = trace(body, w, rays, true), shadows = trace(body, w, shadowRays, true);
+            std::size_t wrong = 0, wrongAny = 0, wrongLight = 0, unequal = 0;
             for (std::size_t i = 0; i < rays.size(); ++i) {
                 const bool hit = truth[i].primitive != NONE;
                 wrongAny += (any[i].primitive != NONE) != hit;
+                wrongLight += glm::distance(lightOf(shadows[i]), light[i]) > 1e-4;
                 if (hit != (hits[i].primitive != NONE) || (hit && !near(hits[i].t, truth[i].t))) {
                     ++wrong;
                 } else if (hit && (hits[i].primitive != truth[i].primitive || hits[i].instance != truth[i].instance)) {
@@ -246,6 +283,7 @@ protected:
             }
             EXPECT_LE(wrong, rays.size() / 10000) << name;
             EXPECT_LE(wrongAny, rays.size() / 10000) << name;
+            EXPECT_LE(wrongLight, rays.size() / 10000) << name;
             EXPECT_LE(unequal, rays.size() / 10000) << name;
         }
         if (bodies_.size() < 2 || bodies_[1].first != "packet") return;
@@ -258,6 +296,9 @@ protected:
             EXPECT_TRUE(near(a[i].t, b[i].t)) << "ray " << i;
         }
         EXPECT_LE(differ, rays.size() / 10000 + 1);
+    }
+    static glm::dvec3 lightOf(const Hit& shadow) {
+        return shadow.primitive != NONE ? glm::dvec3(0) : glm::dvec3(shadow.t, shadow.barycentrics.x, shadow.barycentrics.y);
     }
     static bool near(double a, double b) { return std::abs(a - b) <= 1e-4 * std::abs(b); }
 
@@ -333,6 +374,40 @@ TEST_F(TraceAgreement, MasksLetRaysThrough) {
     scene.place(0, glm::mat4(1));
     for (int i = 0; i < 6; ++i) scene.place(1, placement(draws));
     expectAgreement(scene, raysInto({glm::vec3(-0.5f), glm::vec3(1.5f)}, 10000, 15));
+}
+
+TEST_F(TraceAgreement, PanesLetLightThrough) {
+    TraceScene scene;
+    scene.addMesh({randomSoup(18, 300, 0.15f)}, 0, 1);
+    scene.addMesh({randomSoup(19, 40, 0.3f)}, 0, 2);
+    scene.addMesh({randomSoup(20, 60, 0.3f)}, 3, 2);  // masks, too
+    Draws draws(21);
+    scene.place(0, glm::mat4(1));
+    for (std::uint32_t i = 0; i < 6; ++i) scene.place(1 + i % 2, placement(draws));
+    expectAgreement(scene, raysInto({glm::vec3(-0.5f), glm::vec3(1.5f)}, 10000, 22));
+}
+
+// Whichever way two triangles are put together, light along their common edge goes through one pane. Rays meet it exactly.
+TEST_F(TraceAgreement, PanesOfTwoTrianglesDimOnce) {
+    TraceScene scene;
+    Soup sheet;
+    sheet.add({0, 0, 0}, {1, 0, 0}, {1, 1, 0});
+    sheet.add({0, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    sheet.add({0, 0, 1}, {1, 0, 1}, {1, 1, 1});  // a sheet that is there twice
+    sheet.add({0, 0, 1}, {1, 1, 1}, {1, 0, 1});
+    scene.addMesh({sheet}, 0, 1);
+    scene.place(0, glm::mat4(1));
+    const World w = scene.upload(*device_);
+    std::vector<Ray> rays;
+    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 16, 0.5f}, .tMin = 0, .direction = {0, 0, -1}, .tMax = farAway, .panes = 1});
+    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 32, 0.5f}, .tMin = 0, .direction = {0, 0, 1}, .tMax = farAway, .panes = 1});
+    for (const auto& [name, body] : bodies_) {
+        for (const Hit& shadow : trace(body, w, rays, true)) {
+            EXPECT_EQ(shadow.primitive, NONE) << name;
+            const bool once = shadow.t == 0.75f || shadow.t == 0.5f || shadow.t == 0.9f;
+            EXPECT_TRUE(once) << name << ": " << shadow.t;
+        }
+    }
 }
 
 TEST_F(TraceAgreement, WhatCannotBeHitIsNotHit) {

@@ -42,7 +42,7 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96}, Case{"ensemble_glass", 4, 96},
                                          Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64}, Case{"ensemble_moving", 8, 960},
-                                         Case{"ensemble_lens", 8, 96}),
+                                         Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96}),
                          [](const auto& test) { return test.param.scene; });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.

@@ -289,6 +289,17 @@ uint chooseLobe(LobeChances chances, float u) {
     return lobe;
 }
 
+/// f |cos| of transmission that is a delta lobe, layers and coverage left aside.
+vec3 clearTransmission(Bsdf b, float fresnel) { return b.base * ((1.0 - b.metallic) * b.transmission * (1.0 - dielectricShare(b, fresnel))); }
+
+/// Share of light that goes straight on: what is not covered, and what a clear thin wall transmits.
+vec3 straightOn(Bsdf b, vec3 wo) {
+    vec3 through = vec3(1.0 - b.coverage);
+    if (b.solid || !transmissionDelta(b)) return through;
+    vec3 clear = clearTransmission(b, fresnelDielectric(clamp(dot(b.normal, wo), 0.0, 1.0), b.eta));
+    return through + b.coverage * layerShares(b, wo, -wo).leave * clear;
+}
+
 /// Direction of the lobe and, for delta lobes, f |cos|. Zero vector under total internal reflection.
 vec3 lobeDirection(Bsdf b, uint lobe, vec3 wo, vec2 u, out vec3 deltaValue) {
     deltaValue = vec3(1.0 - b.coverage);
@@ -306,7 +317,7 @@ vec3 lobeDirection(Bsdf b, uint lobe, vec3 wo, vec2 u, out vec3 deltaValue) {
     float fresnel = fresnelDielectric(cosH, isCoat ? COAT_ETA : b.eta);
     deltaValue = isCoat ? vec3(b.coat * fresnel) : specularColor(b, cosH, fresnel);
     if (lobe == LOBE_TRANSMISSION) {
-        deltaValue = b.base * ((1.0 - b.metallic) * b.transmission * (1.0 - dielectricShare(b, fresnel)));
+        deltaValue = clearTransmission(b, fresnel);
         if (b.solid) {
             deltaValue /= b.eta * b.eta;
             float inner = 1.0 - (1.0 - cosH * cosH) / (b.eta * b.eta);

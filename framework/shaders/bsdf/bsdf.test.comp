@@ -204,6 +204,20 @@ void check(Bsdf b, vec3 wo, uint i, uint angle, uint base) {
     EXPECT_NEAR(chanceSum(chance), i == 14u ? 0.0 : 1.0, 1e-6);
 }
 
+// What goes straight on is what the delta lobes send there, each of them with its whole value.
+void checkStraightOn(Bsdf b, vec3 wo, uint i) {
+    vec3 sum = vec3(0.0), value;
+    for (uint l = 0u; l < LOBE_COUNT; ++l) {
+        if (!lobeDelta(b, l) || lobeChance(lobeProbabilities(b, wo), l) == 0.0) continue;
+        vec3 wi = lobeDirection(b, l, wo, vec2(0.5), value);
+        if (distance(wi, -wo) < 1e-5) sum += value;
+    }
+    EXPECT_NEAR(straightOn(b, wo), sum, 1e-6);
+    if (i == 0u || i == 4u || i == 10u || i == 24u) EXPECT_EQ(sum, vec3(0.0));  // matt, rough, refracting, a mirror
+    if (i == 7u) EXPECT_NEAR(sum, vec3(0.3), 1e-6);
+    if (i == 12u) EXPECT_NEAR(sum, vec3(0.6 + 0.4 * (1.0 - fresnelDielectric(dot(NORMAL, wo), 1.5))), 1e-5);
+}
+
 void main() {
     uint group = gl_WorkGroupID.x, lane = gl_LocalInvocationID.x, i = group % MATERIALS, angle = group / MATERIALS;
     uint base = group * STRIDE;
@@ -214,6 +228,7 @@ void main() {
     if (dot(wo, b.geometric) < 0.0) wo = 2.0 * dot(wo, NORMAL) * NORMAL - wo;  // the viewer is above the triangle
     if (testPush.pass == 1u) {
         if (lane == 0u) check(b, wo, i, angle, base);
+        if (lane == 0u) checkStraightOn(b, wo, i);
         return;
     }
     float sums[8];

@@ -112,10 +112,20 @@ float lightPdf(World w, uint instance, uint primitive, vec3 direction, float dis
     return projected > 0.0 ? w.lights.at[first + emitter].pmf * square(distance) / projected : 0.0;
 }
 
-/// The ray that decides whether s sees the light sample.
+/// The ray that decides how much s sees of the light sample. Behind panes lights of some extent are left to paths that go through them; those
+/// without extent no path finds, so that their light comes straight.
 Ray shadowRay(World w, Surface s, LightSample l) {
-    if (l.distance >= FAR) return spawnRay(w, s, l.direction);
-    return rayBetween(w, s, s.position + l.distance * l.direction);
+    Ray ray;
+    if (l.distance >= FAR) ray = spawnRay(w, s, l.direction);
+    else ray = rayBetween(w, s, s.position + l.distance * l.direction);
+    ray.panes = uint(l.delta);
+    return ray;
+}
+
+/// Share of light that arrives along an any-hit ray, given what it hit.
+vec3 transmittance(Hit hit) {
+    if (hit.primitive != NONE) return vec3(0.0);
+    return SCENE_PANES != 0 ? vec3(hit.t, hit.barycentrics) : vec3(1.0);
 }
 
 /// Balance heuristic (Veach and Guibas 1995): the weight of a sample found with density pdfA that another technique finds with pdfB.

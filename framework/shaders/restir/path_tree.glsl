@@ -23,7 +23,7 @@ struct PathTree {
     uvec2 seed;
     uint vertex;        // j of the last vertex x_j that was reached; 0: the lens
     Ray ray;            // to be traced next
-    bool toLight;       // it asks whether the light of the path on offer is visible
+    bool toLight;       // it asks how much arrives of the light of the path on offer
     Ray onward;         // the spine's own next ray, while `ray` goes to a light
     bool ends;          // there is none
 
@@ -99,6 +99,13 @@ void offer(inout PathTree p, Reservoir path, PathShape shape, TrianglePlace rc, 
     p.offered = path;
     p.offeredRc = rc;
     p.offeredWeight = finiteWeight(luminance(F) * warp / p.survival);
+}
+
+/// The light of the path on offer has come through panes.
+void dimOffer(inout PathTree p, vec3 share) {
+    float before = target(p.offered);
+    dimLight(p.offered, unpackShape(p.offered.shape), share);
+    p.offeredWeight *= before > 0.0 ? target(p.offered) / before : 0.0;
 }
 
 /// The path on offer takes part in the resampling. `decisions`: seed of the resampling stream.
@@ -238,7 +245,10 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
 /// Goes on from what `ray` hit; false: the tree is finished.
 bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hit hit, uvec2 decisions) {
     if (p.toLight) {
-        if (hit.primitive == NONE) takeOffer(p, decisions);
+        if (hit.primitive == NONE) {
+            if (SCENE_PANES != 0) dimOffer(p, transmittance(hit));
+            takeOffer(p, decisions);
+        }
         p.toLight = false;
         p.ray = p.onward;
         return !p.ends;

@@ -43,6 +43,12 @@ bool holdsPath(Reservoir r) { return r.W > 0.0; }
 /// Scalar target p^ of the kept path.
 float target(Reservoir r) { return luminance(r.F); }
 
+/// Only a share arrives of the light that was sent along the path's last segment, which lies before x_k or behind it.
+void dimLight(inout Reservoir r, PathShape s, vec3 share) {
+    r.F *= share;
+    if (s.k > 0u && s.k < s.d) r.radiance *= share;
+}
+
 /// Estimate of the pixel: F(Y) W.
 vec3 shadeReservoir(Reservoir r) { return holdsPath(r) ? r.F * r.W : vec3(0.0); }
 

@@ -16,7 +16,7 @@
 
 const uint SHIFT_WALK = 0u;     // `ray` looks for the next vertex
 const uint SHIFT_CONNECT = 1u;  // it asks whether y_{k-1} sees x_k
-const uint SHIFT_LIGHT = 2u;    // it asks whether the last vertex sees the light sample
+const uint SHIFT_LIGHT = 2u;    // it asks how much the last vertex sees of the light sample
 const uint SHIFT_SEE = 3u;      // it asks whether the lens sees y_1, which is known
 const uint SHIFT_DONE = 4u;
 
@@ -298,12 +298,11 @@ bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
         while (shiftVertex(t, w, rules, hit, direction, target)) {}
     } else if (hit.primitive != NONE) {
         shiftFail(t);
-    } else if (t.resumes) {
-        t.resumes = false;
-        t.ray = t.onward;
-        t.state = t.shape.nee && t.shape.k + 1u == t.shape.d ? SHIFT_LIGHT : SHIFT_WALK;
     } else {
-        t.state = SHIFT_DONE;
+        dimLight(t.path, t.shape, transmittance(hit));
+        t.state = !t.resumes ? SHIFT_DONE : t.shape.nee && t.shape.k + 1u == t.shape.d ? SHIFT_LIGHT : SHIFT_WALK;
+        if (t.resumes) t.ray = t.onward;
+        t.resumes = false;
     }
     // Nothing is gained by tracing a path that is black already; with a suffix to come, F is not known yet.
     if (t.path.F == vec3(0.0) && !(t.refresh && reconnectionKind(t.shape) == RC_SURFACE && t.state != SHIFT_DONE)) t.jacobian = 0.0;

@@ -54,7 +54,7 @@ void driverWalk(ivec2 pixel) {
         bool phase = false;  // which kind of ray the subgroup traces now
         while (subgroupAny(live)) {
             bool anyHit = false;
-            Ray ray = Ray(vec3(0.0), 0.0, vec3(1.0), -1.0);
+            Ray ray = Ray(vec3(0.0), 0.0, vec3(1.0), -1.0, 0u);
             uint purpose = RAYS_PURPOSES;
             if (live) ray = pathRay(path, anyHit, purpose);
             bool mine = live && anyHit == phase;

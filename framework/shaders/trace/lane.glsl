@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Traversal ray by ray: each lane walks the tree alone. For any subgroup size.
-#include "texture/alpha.glsl"
 #include "trace/reference.glsl"
 #include "trace/triangle.glsl"
 
@@ -17,6 +16,7 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
     float tMin = max(ray.tMin, 0.0);
     Hit hit = Hit(ray.tMax, vec2(0.0), NONE, NONE);
     uint instance = NONE;
+    Passage passage = passageStart();
 
     uint stack[LANE_STACK];
     stack[0] = REF_NONE;
@@ -55,8 +55,11 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
                 vec3 v0 = a.xyz, e1 = vec3(a.w, b.xy), e2 = vec3(b.zw, c.x);
                 Meeting m = meet(origin, direction, tMin, hit.t, v0, e1, e2);
                 bool accepted = m.t < hit.t;
-                if (accepted && floatBitsToUint(c.y) != 0u) accepted = alphaAccepts(w, primitive, m.barycentrics);
-                if (accepted) hit = Hit(m.t, m.barycentrics, primitive, instance);
+                Hit met = Hit(m.t, m.barycentrics, primitive, instance);
+                bool asked = floatBitsToUint(c.y) != 0u;
+                if (accepted && asked) accepted = alphaAccepts(w, primitive, m.barycentrics);
+                if (anyHit && accepted && asked) accepted = endsLight(w, ray, met, passage);
+                if (accepted) hit = met;
             }
             current = anyHit && hit.primitive != NONE ? REF_NONE : stack[--size];
         } else if (current == REF_BACK) {
@@ -77,5 +80,5 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             current = rootOf(w, instance, record.mesh);
         }
     }
-    return hit;
+    return anyHit ? arrivedHit(hit, passage) : hit;
 }

@@ -2,7 +2,6 @@
 // Traversal by packets: the 8 lanes of a subgroup walk the tree together, with one current node and one stack. All 8 must call it; one
 // without a ray gives tMax < 0. Control flow is uniform, and there is as little of it as possible: on lavapipe a branch costs more than the
 // arithmetic it saves. docs/rays.md has the measurements.
-#include "texture/alpha.glsl"
 #include "trace/grid_ray.glsl"
 #include "trace/packet_stack.glsl"
 #include "trace/triangle.glsl"
@@ -13,6 +12,7 @@ struct Packet {
     Hit hit;
     uint instance;     // that the packet is in
     bool anyHit;
+    Passage passage;   // of any-hit rays
 };
 
 void take(inout Packet p, bool accepted, Meeting m, uint primitive) {
@@ -58,14 +58,16 @@ void testLeafOfOne(World w, uint leaf, GridRay r, inout Packet p, uint lone) {
     take(p, packetLane() == lone && nearest.t < p.tMax, nearest, min(first + winner, last));
 }
 
-// One triangle after the other, asking the masks.
-void testMaskedLeaf(World w, uint leaf, GridRay r, inout Packet p) {
+// One triangle after the other, asking masks and panes.
+void testMaskedLeaf(World w, uint leaf, Ray ray, GridRay r, inout Packet p) {
     uint last = lastTriangle(leaf);
     for (uint primitive = firstTriangle(leaf); primitive <= last; ++primitive) {
         uint64_t triangle = loadTriangle(w, primitive);
         Meeting m = meetTriangle(triangle, r, p);
         bool accepted = m.t < p.tMax;
-        if (accepted && dwordOf(triangle, 9u) != 0u) accepted = alphaAccepts(w, primitive, m.barycentrics);
+        bool asked = dwordOf(triangle, 9u) != 0u;
+        if (accepted && asked) accepted = alphaAccepts(w, primitive, m.barycentrics);
+        if (p.anyHit && accepted && asked) accepted = endsLight(w, ray, Hit(m.t, m.barycentrics, primitive, p.instance), p.passage);
         take(p, accepted, m, primitive);
     }
 }
@@ -80,7 +82,7 @@ GridRay enterInstance(uint64_t record, vec3 origin, vec3 direction) {
 
 Hit traceRay(World w, Ray ray, bool anyHit) {
     GridRay outside = gridRay(ray.origin, ray.direction, w.gridBase, w.gridScale), r = outside;
-    Packet p = Packet(max(ray.tMin, 0.0), ray.tMax, Hit(ray.tMax, vec2(0.0), NONE, NONE), NONE, anyHit);
+    Packet p = Packet(max(ray.tMin, 0.0), ray.tMax, Hit(ray.tMax, vec2(0.0), NONE, NONE), NONE, anyHit, passageStart());
 
     // The top level's stack is set aside while a mesh has its own. Where only one lane's ray is still inside, all lanes test boxes for that
     // one: not 0, loneSize says that until the stack is smaller than this only lane `lone` is inside of anything.
@@ -120,8 +122,8 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             pushRanked(stack, subgroupShuffle(references, 4u + childOf(mine)), pushed);
             stack.size = entered ? stack.size + pushed : stack.size - 1u;
         } else if (current < REF_BACK) {
-            if (SCENE_MASKS != 0 && (current & REF_MASKED) != 0u) {
-                testMaskedLeaf(w, current, r, p);
+            if ((SCENE_MASKS != 0 || (SCENE_PANES != 0 && anyHit)) && (current & REF_MASKED) != 0u) {
+                testMaskedLeaf(w, current, ray, r, p);
             } else if (loneSize != 0u) {
                 testLeafOfOne(w, current, r, p, lone);
             } else {
@@ -148,5 +150,5 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
         }
         loneSize = stack.size < loneSize ? 0u : loneSize;
     }
-    return p.hit;
+    return anyHit ? arrivedHit(p.hit, p.passage) : p.hit;
 }

@@ -11,10 +11,11 @@ struct Ray {
     float tMin;
     vec3 direction;  // need not be unit: t counts in its length
     float tMax;      // < 0: no ray (a lane that only keeps its subgroup company)
+    uint panes;      // 1: an any-hit ray goes on through what lets light straight through (trace/pane.glsl); 0: that ends it
 };
 
 struct Hit {
-    float t;
+    float t;            // of an any-hit ray that nothing ended, t and barycentrics are the share of light that is left (light/light.glsl)
     vec2 barycentrics;  // weights of the second and third vertex
     uint primitive;     // World.primitives index, NONE: nothing hit
     uint instance;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays traced by the driver (VK_KHR_ray_query). World.tlas was built over the levels that World.levels says.
 #extension GL_EXT_ray_query : require
-#include "texture/alpha.glsl"
-#include "trace/ray.h"
 
 #ifdef COUNT_STEPS
 uint traceSteps = 0u;  // drivers don't tell
@@ -15,16 +13,20 @@ uint queriedPrimitive(World w, uint instance, uint triangle) {
 
 Hit traceRay(World w, Ray ray, bool anyHit) {
     Hit hit = Hit(ray.tMax, vec2(0.0), NONE, NONE);
-    if (!(ray.tMax > 0.0) || w.tlas == 0ul) return hit;
+    Passage passage = passageStart();
+    if (!(ray.tMax > 0.0) || w.tlas == 0ul) return anyHit ? arrivedHit(hit, passage) : hit;
     rayQueryEXT query;
     rayQueryInitializeEXT(query, accelerationStructureEXT(w.tlas), anyHit ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT, 0xffu,
                           ray.origin, max(ray.tMin, 0.0), ray.direction, ray.tMax);
-    while (rayQueryProceedEXT(query)) {  // stops at triangles of levels where some have an alpha mask
-        uint instance = rayQueryGetIntersectionInstanceIdEXT(query, false);
-        uint primitive = queriedPrimitive(w, instance, rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-        if (alphaAccepts(w, primitive, rayQueryGetIntersectionBarycentricsEXT(query, false))) rayQueryConfirmIntersectionEXT(query);
+    while (rayQueryProceedEXT(query)) {  // stops at triangles of levels where some have an alpha mask or are panes
+        Hit met = Hit(rayQueryGetIntersectionTEXT(query, false), rayQueryGetIntersectionBarycentricsEXT(query, false), 0u,
+                      rayQueryGetIntersectionInstanceIdEXT(query, false));
+        met.primitive = queriedPrimitive(w, met.instance, rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
+        bool accepted = alphaAccepts(w, met.primitive, met.barycentrics);
+        if (anyHit && accepted) accepted = endsLight(w, ray, met, passage);
+        if (accepted) rayQueryConfirmIntersectionEXT(query);
     }
-    if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionTriangleEXT) return hit;
+    if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionTriangleEXT) return anyHit ? arrivedHit(hit, passage) : hit;
     hit.instance = rayQueryGetIntersectionInstanceIdEXT(query, true);
     hit.primitive = queriedPrimitive(w, hit.instance, rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
     hit.t = rayQueryGetIntersectionTEXT(query, true);

@@ -23,7 +23,7 @@ vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) {
 Ray cameraRay(World w, vec2 film, vec2 lens) {
     vec3 direction = w.camera.forward + (2.0 * film.x - 1.0) * w.camera.right + (1.0 - 2.0 * film.y) * w.camera.up;
     vec3 offset = lensOffset(w, lens);
-    return Ray(w.camera.position + offset, 0.0, normalize(direction - offset / w.camera.focus), FAR);
+    return Ray(w.camera.position + offset, 0.0, normalize(direction - offset / w.camera.focus), FAR, 0u);
 }
 
 /// Inverse of cameraRay: xy is the film point whose ray through the same lens point passes through `point`, z the depth along the

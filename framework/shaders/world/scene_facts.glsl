@@ -6,3 +6,6 @@
 #ifndef SCENE_MASKS
 #define SCENE_MASKS 1   // MATERIAL_MASK
 #endif
+#ifndef SCENE_PANES
+#define SCENE_PANES 1   // MATERIAL_PANE, where there is a light without extent to shine through it
+#endif

@@ -102,7 +102,7 @@ vec3 spawnOrigin(World w, Surface s, vec3 direction) {
     return s.position + (dot(s.normal, direction) < 0.0 ? -offset : offset) * s.normal;
 }
 
-Ray spawnRay(World w, Surface s, vec3 direction) { return Ray(spawnOrigin(w, s, direction), 0.0, direction, FAR); }
+Ray spawnRay(World w, Surface s, vec3 direction) { return Ray(spawnOrigin(w, s, direction), 0.0, direction, FAR, 0u); }
 
 /// The segment from the surface to a point of another one, for occluded(). Its direction is not unit; it ends short of the target by four
 /// error bounds, at least 1e-5 of its length and at most half of it.
@@ -110,5 +110,5 @@ Ray rayBetween(World w, Surface s, vec3 target) {
     vec3 origin = spawnOrigin(w, s, target - s.position);
     vec3 direction = target - origin;
     float gap = 4.0 * positionError(w, target) * inversesqrt(max(dot(direction, direction), 1e-30));
-    return Ray(origin, 0.0, direction, 1.0 - clamp(gap, 1e-5, 0.5));
+    return Ray(origin, 0.0, direction, 1.0 - clamp(gap, 1e-5, 0.5), 0u);
 }

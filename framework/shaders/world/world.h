@@ -90,6 +90,7 @@ const uint MATERIAL_SOLID = 8u;     // refracts; otherwise transmission is thin-
 const uint MATERIAL_EMISSIVE = 16u;
 const uint MATERIAL_VERTEX_COLOR = 32u;
 const uint MATERIAL_UNLIT = 64u;    // its emission is its base colour: vertex colours count
+const uint MATERIAL_PANE = 128u;    // may let light go straight on: a delta lobe of its BSDF does
 
 // What few materials have: KHR_materials_specular, _sheen, _anisotropy, _clearcoat.
 struct LayersRecord {
