@@ -39,6 +39,22 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
     std::printf("%s: %+.2f %% +- %.2f %%\n", c.scene.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
 }
 
+// Light points behind panes that move: what is reused has no part in what a pane takes, which the pixel's own shadow ray finds.
+TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
+    EnsembleJudge judge({.scene = sourceFolder / "scenes/ensemble_panes.json",
+                         .size = {32, 18},
+                         .warmup = 3,
+                         .frame = 3,
+                         .runs = 64,
+                         .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.pixelCentre", Json(true)}}),
+                         .referenceSamples = 2048});
+    const EnsembleResult reuse =
+        judge.judge({.graph = sourceFolder / "passes/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
+    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
+    EXPECT_LE(reuse.halfWidth, 0.01);
+    std::printf("light points: %+.2f %% +- %.2f %%\n", 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96}, Case{"ensemble_glass", 4, 96},
                                          Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64}, Case{"ensemble_moving", 8, 960},
