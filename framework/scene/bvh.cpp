@@ -364,7 +364,10 @@ Bvh buildTopLevel(std::span<const Box> boxes) {
     return bvh;
 }
 
-glm::vec3 BvhGrid::origin() const { return glm::clamp(glm::vec3(0), base, base + gridSteps * scale); }
+glm::vec3 BvhGrid::origin() const {
+    const glm::vec3 half = 0.5f * gridSteps * scale, nearest = glm::clamp(glm::vec3(0), base, base + 2.0f * half);
+    return glm::mix(nearest, base + half, glm::greaterThanEqual(glm::abs(nearest), half));
+}
 
 TraceInstance traceInstance(std::uint32_t mesh, const BvhGrid& grid, const glm::mat4& toWorld) {
     const glm::dmat4 exact(toWorld);

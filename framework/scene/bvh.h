@@ -38,8 +38,9 @@ static_assert(sizeof(BvhNode) == 64 && sizeof(BvhTriangle) == 48);
 struct BvhGrid {
     glm::vec3 base{0}, scale{1};
 
-    /// From where triangles are measured: the point of the grid that is nearest to the origin of object space, where floats are finest, and so
-    /// are vertices. From a corner of wide ground, what stands in its middle would be placed no better than a ten-millionth of the width.
+    /// From where triangles are measured, axis by axis: the point of the grid nearest to the origin of object space, where floats are finest, and so are
+    /// vertices (from a corner of wide ground, what stands in its middle would be placed no better than a ten-millionth of the width); the grid's
+    /// middle where all of it is farther than half its width. So no vertex x is farther from there than |x|.
     LODESTIR_API glm::vec3 origin() const;
     /// The grid's base in steps from there.
     glm::vec3 boxes() const { return (base - origin()) / scale; }

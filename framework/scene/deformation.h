@@ -27,7 +27,7 @@ struct Pose {
 LODESTIR_API Pose poseAt(const Scene& scene, float frame);
 
 /// From a mesh's vertices to the world by each joint of its skin: node matrix times inverse bind matrix (glTF 2.0, section 3.7.3.3); the shape of its
-/// shaper; empty without both. Flat ones are thickened (flattening.h).
+/// shaper; empty without both. Those without thickness are thickened (flattening.h).
 std::vector<glm::mat4> jointMatrices(const Scene& scene, const Mesh& mesh, std::span<const glm::mat4> nodes);
 
 /// p' = sum over joints of weight * matrix * (p + sum over targets of weight * displacement) (glTF 2.0, sections 3.7.2.2 and 3.7.3.3);

@@ -35,8 +35,14 @@ struct Squeezed {
         area = norm(normals);
     }
     bool isLine() const { return !(area > noise * size * size); }
-    bool isFlat() const { return isLine() || std::abs(volume) < leastThickness * size * area; }
+    /// Is less than this share of the size left across the other two?
+    bool isThin(double share) const { return isLine() || std::abs(volume) < share * size * area; }
 };
+
+/// The matrix has to squeeze: a mesh may be thin by itself. And the mesh has to come out thin: it may be drawn that much too deep.
+bool leavesThin(const glm::dmat3& matrix, glm::dvec3 extent, double share) {
+    return Squeezed(matrix, glm::dvec3(1)).isThin(share) && Squeezed(matrix, extent).isThin(share);
+}
 
 /// Does an axis lose its length while another has some?
 bool flattensSometime(const AnimationChannel& channel) {
@@ -56,15 +62,14 @@ bool flattensSometime(const AnimationChannel& channel) {
 
 }  // namespace
 
-bool flattens(const glm::dmat3& matrix, glm::dvec3 extent) { return Squeezed(matrix, extent).isFlat(); }
+bool flattens(const glm::dmat3& matrix, glm::dvec3 extent) { return leavesThin(matrix, extent, leastThickness); }
 
 glm::dmat3 thickened(const glm::dmat3& matrix, glm::dvec3 extent) {
+    if (!leavesThin(matrix, extent, noise)) return matrix;
     const Squeezed s(matrix, extent);
-    if (!s.isFlat()) return matrix;
     if (s.isLine()) return glm::dmat3(0);
-    const double side = s.volume < -noise * s.size * s.area ? -1 : 1, thickness = side * leastThickness * s.size / s.area;
     glm::dmat3 result = matrix;
-    for (int axis = 0; axis < 3; ++axis) result[axis] += s.normals[axis] * (thickness / s.extent[axis]);
+    for (int axis = 0; axis < 3; ++axis) result[axis] += s.normals[axis] * (leastThickness * s.size / (s.area * s.extent[axis]));
     return result;
 }
 

@@ -61,6 +61,7 @@ TEST(Flattening, WhatIsFlat) {
     // A scale that undoes what a mesh is large in leaves it its thickness, and a mesh without thickness doesn't make its matrix flat.
     EXPECT_FALSE(flattens(scaling(1, 1, 1e-6), {1, 1, 1e6}));
     EXPECT_FALSE(flattens(glm::dmat3(1), {1, 1, 0}));
+    EXPECT_FALSE(flattens(turned, {1, 1, 1e-9}));
     EXPECT_TRUE(flattens(scaling(1, 1, 0), {1, 1, 0}));
 }
 
@@ -100,15 +101,19 @@ TEST(Flattening, FlatCubesFaceBothWays) {
         for (const glm::uvec3& t : level.triangles) {
             const auto at = [&](std::uint32_t v) { return glm::dvec3(matrix * glm::vec4(posed.positions[v], 1)); };
             const glm::dvec3 area = 0.5 * glm::cross(at(t.y) - at(t.x), at(t.z) - at(t.x));
-            const double facing = glm::dot(area, glm::dvec3(up)),
-                         height = glm::dot((at(t.x) + at(t.y) + at(t.z)) / 3.0 - glm::dvec3(3, 4, 5), glm::dvec3(up));
+            const glm::dvec3 middle = 0.5 * (at(t.x) + at(t.x + 2)) - glm::dvec3(3, 4, 5);  // of the face
+            const double facing = glm::dot(area, glm::dvec3(up)), height = glm::dot(middle, glm::dvec3(up));
             EXPECT_LT(std::abs(height), 4 * leastThickness);
-            if (std::abs(facing) > 0.01) EXPECT_GT(facing * height, 0) << "looks inwards";
+            if (std::abs(facing) > 0.01) {
+                EXPECT_GT(facing * height, 0) << "looks inwards";
+            }
             (facing > 0 ? above : below) += std::abs(facing);
             EXPECT_GT(glm::dot(area, glm::dvec3(posed.normals[t.x])), 0) << "its normal has another side";
         }
         EXPECT_NEAR(above, below, 1e-5);
-        if (!inner) EXPECT_NEAR(above, 4, 1e-3);
+        if (!inner) {
+            EXPECT_NEAR(above, 4, 1e-3);
+        }
     }
 }
 
@@ -156,9 +161,13 @@ TEST(Axes, OfMatricesThatLackSome) {
         const glm::mat3 axes = unitAxes(m);
         for (int i = 0; i < 3; ++i) {
             EXPECT_NEAR(glm::length(axes[i]), 1, 1e-6);
-            if (scale[i] > 0) EXPECT_LT(glm::distance(axes[i], glm::vec3(turned[i])), 1e-6f);
+            if (scale[i] > 0) {
+                EXPECT_LT(glm::distance(axes[i], glm::vec3(turned[i])), 1e-6f);
+            }
             const int zeros = int(scale.x == 0) + int(scale.y == 0) + int(scale.z == 0);
-            if (zeros < 2) EXPECT_LT(glm::distance(axes[i], glm::vec3(turned[i])), 1e-6f);
+            if (zeros < 2) {
+                EXPECT_LT(glm::distance(axes[i], glm::vec3(turned[i])), 1e-6f);
+            }
         }
     }
 }
