@@ -134,7 +134,7 @@ private:
         for (const Placed& placed : scene_.instances) {
             const Bvh& mesh = meshes[placed.mesh];
             boxes.push_back(boundsOf(mesh, placed.toWorld));
-            instances.push_back(traceInstance(placed.mesh, mesh.gridBase, mesh.gridScale, placed.toWorld));
+            instances.push_back(traceInstance(placed.mesh, {mesh.gridBase, mesh.gridScale}, placed.toWorld));
             levels.push_back(std::uint32_t(levels.size() % LEVELS));
         }
         const Bvh top = buildTopLevel(boxes);

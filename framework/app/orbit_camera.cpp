@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/orbit_camera.h>
 
+#include <framework/scene/axes.h>
+
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -11,25 +13,28 @@
 namespace lodestir {
 namespace {
 
-struct Axes {
-    glm::vec3 right, up, forward;
+constexpr float nearest = 1e-6f, farthest = 1e12f;  // scene units: of targets and pictures, so that no product of them overflows
+
+/// Height of the picture in the plane at right angles to the view through the target.
+float heightAtTarget(const CameraKey& camera) {
+    return camera.height > 0 ? camera.height : 2 * std::tan(0.5f * camera.fovy) * glm::length(camera.target - camera.position);
+}
+
+/// A picture of the world: from a place in it, (x, y, 1) with x and y in 0..1 to the right and downwards, goes a ray. Perspective: origin `base`, direction
+/// axes * (x, y, 1). Orthographic: origin base + axes * (x, y, 0), direction the last of the axes.
+struct Projection {
+    glm::vec3 base;
+    glm::mat3 axes;
+    bool orthographic;
+
+    Projection(const CameraKey& camera, float aspect) : base(camera.position), orthographic(camera.height > 0) {
+        const ViewAxes view = viewAxes(camera);
+        const float height = orthographic ? camera.height : 2 * std::tan(0.5f * camera.fovy);
+        const glm::vec3 right = height * aspect * view.right, down = -height * view.up, corner = -0.5f * right - 0.5f * down;
+        axes = {right, down, orthographic ? view.forward : view.forward + corner};
+        if (orthographic) base += corner;
+    }
 };
-
-Axes axesOf(const CameraKey& camera) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-    glm::vec3 right = glm::cross(forward, camera.up);
-    if (glm::dot(right, right) < 1e-12f) right = glm::cross(forward, glm::vec3(0, 0, 1));  // looking straight along `up`
-    right = glm::normalize(right);
-    return {right, glm::cross(right, forward), forward};
-}
-
-/// Columns: right, down and forward, so that M (x, y, 1) with x and y in 0..1 is the direction of a place in the picture.
-glm::mat3 directions(const CameraKey& camera, float aspect) {
-    const Axes axes = axesOf(camera);
-    const float height = std::tan(0.5f * camera.fovy);
-    const glm::vec3 right = 2 * height * aspect * axes.right, down = -2 * height * axes.up;
-    return {right, down, axes.forward - 0.5f * right - 0.5f * down};
-}
 
 Json vectorJson(const glm::vec3& v) {
     Json array = Json::array();
@@ -47,7 +52,7 @@ CameraKey orbited(const CameraKey& camera, float right, float up) {
     const glm::vec3 pole = glm::normalize(camera.up);
     const glm::mat3 turn(glm::rotate(glm::mat4(1), right, pole));
     glm::vec3 back = turn * (camera.position - camera.target);
-    const glm::vec3 side = turn * axesOf(camera).right;
+    const glm::vec3 side = turn * viewAxes(camera).right;
     const float angle = std::acos(std::clamp(glm::dot(glm::normalize(back), pole), -1.0f, 1.0f));
     const float tilt = std::clamp(angle - up, least, glm::pi<float>() - least) - angle;
     back = glm::mat3(glm::rotate(glm::mat4(1), tilt, side)) * back;
@@ -56,9 +61,8 @@ CameraKey orbited(const CameraKey& camera, float right, float up) {
 }
 
 CameraKey panned(const CameraKey& camera, float right, float up) {
-    const Axes axes = axesOf(camera);
-    const float height = 2 * std::tan(0.5f * camera.fovy) * glm::length(camera.target - camera.position);
-    const glm::vec3 shift = height * (right * axes.right + up * axes.up);
+    const ViewAxes axes = viewAxes(camera);
+    const glm::vec3 shift = heightAtTarget(camera) * (right * axes.right + up * axes.up);
     CameraKey moved = camera;
     moved.position += shift;
     moved.target += shift;
@@ -67,19 +71,25 @@ CameraKey panned(const CameraKey& camera, float right, float up) {
 
 CameraKey dollied(const CameraKey& camera, float factor) {
     CameraKey moved = camera;
-    const float distance = glm::length(camera.position - camera.target), wanted = std::clamp(distance * factor, 1e-4f, 1e6f);
+    if (camera.height > 0) {  // nothing grows by going nearer
+        moved.height = std::clamp(camera.height * factor, nearest, farthest);
+        return moved;
+    }
+    const float distance = glm::length(camera.position - camera.target), wanted = std::clamp(distance * factor, nearest, farthest);
     moved.position = camera.target + (camera.position - camera.target) * (wanted / distance);
-    moved.focus = std::max(camera.focus + wanted - distance, 1e-4f);
+    moved.focus = std::max(camera.focus + wanted - distance, nearest);
     return moved;
 }
 
 CameraKey framed(const CameraKey& camera, const std::array<glm::vec3, 2>& bounds, float aspect) {
     if (bounds[0].x > bounds[1].x) return camera;
-    const float radius = std::max(0.5f * glm::length(bounds[1] - bounds[0]), 1e-4f);
+    const float radius = std::max(0.5f * glm::length(bounds[1] - bounds[0]), nearest);
     const float half = std::atan(std::tan(0.5f * camera.fovy) * std::min(aspect, 1.0f));
     CameraKey moved = camera;
     moved.target = 0.5f * (bounds[0] + bounds[1]);
-    moved.position = moved.target - axesOf(camera).forward * (radius / std::sin(half));
+    const float distance = camera.height > 0 ? 2 * radius : radius / std::sin(half);
+    if (camera.height > 0) moved.height = 2 * radius / std::min(aspect, 1.0f);
+    moved.position = moved.target - viewAxes(camera).forward * distance;
     moved.focus = glm::length(moved.position - moved.target);
     return moved;
 }
@@ -89,17 +99,37 @@ Json cameraJson(const CameraKey& camera) {
     json["position"] = vectorJson(camera.position);
     json["target"] = vectorJson(camera.target);
     json["up"] = vectorJson(camera.up);
-    json["fovy"] = numberJson(glm::degrees(camera.fovy));
-    json["aperture"] = numberJson(camera.aperture);
+    if (camera.height > 0) {
+        json["orthographic"] = numberJson(camera.height);
+    } else {
+        json["fovy"] = numberJson(glm::degrees(camera.fovy));
+        json["aperture"] = numberJson(camera.aperture);
+    }
     json["focus"] = numberJson(camera.focus);
     return json;
 }
 
 glm::mat3 warpBetween(const CameraKey& from, const CameraKey& to, float aspect) {
-    const glm::vec3 normal = axesOf(from).forward;
-    // A ray of `to`, C + t d, meets the plane at t = n.(P - C) / n.d; seen from `from`'s centre, and times n.d, that is linear in d.
-    const glm::mat3 meet = glm::outerProduct(to.position - from.position, normal) + glm::mat3(glm::dot(normal, from.target - to.position));
-    return glm::inverse(directions(from, aspect)) * meet * directions(to, aspect);
+    const glm::vec3 normal = viewAxes(from).forward;
+    const Projection source(from, aspect), target(to, aspect);
+    // Where the ray of a place q in the picture `to` meets the plane n.(P - T) = 0, times a weight: `point` q and dot(weight, q), linear in q.
+    glm::mat3 point;
+    glm::vec3 weight;
+    if (target.orthographic) {
+        const float facing = glm::dot(normal, target.axes[2]);
+        const glm::mat3 origins(target.axes[0], target.axes[1], target.base);
+        weight = {0, 0, facing};
+        point = facing * origins - glm::outerProduct(target.axes[2], normal * origins);
+        point[2] += target.axes[2] * glm::dot(normal, from.target);
+    } else {
+        weight = normal * target.axes;
+        point = glm::outerProduct(target.base, weight) + glm::dot(normal, from.target - target.base) * target.axes;
+    }
+    // And the place where the picture `from` has it.
+    glm::mat3 place = glm::inverse(source.axes) * (point - glm::outerProduct(source.base, weight));
+    if (source.orthographic)
+        for (int i = 0; i < 3; ++i) place[i].z = weight[i];
+    return place;
 }
 
 }  // namespace lodestir

@@ -10,11 +10,12 @@ namespace lodestir {
 LODESTIR_API CameraKey orbited(const CameraKey& camera, float right, float up);
 /// Sideways and upwards with its target, in heights of the picture at the target's distance: what is there follows the pointer.
 LODESTIR_API CameraKey panned(const CameraKey& camera, float right, float up);
-/// Towards the target or away from it: the distance times `factor`. The plane in focus moves along.
+/// Towards the target or away from it: the distance times `factor`. The plane in focus moves along. Orthographic: the height times `factor`.
 LODESTIR_API CameraKey dollied(const CameraKey& camera, float factor);
 /// Looks the same way at the middle of `bounds` from where all of it is seen. `aspect`: width over height.
 LODESTIR_API CameraKey framed(const CameraKey& camera, const std::array<glm::vec3, 2>& bounds, float aspect);
-/// As a scene file has it: {"position": ..., "target": ..., "up": ..., "fovy": degrees, "aperture": ..., "focus": ...}.
+/// As a scene file has it: {"position": ..., "target": ..., "up": ..., "fovy": degrees, "aperture": ..., "focus": ...}, or with "orthographic": height
+/// in place of angle and aperture.
 LODESTIR_API Json cameraJson(const CameraKey& camera);
 
 /// From places in the picture of camera `to` to places in that of camera `from`, both 0..1 to the right and downwards, homogeneous; exact for what

@@ -185,22 +185,28 @@ void Panels::drawCamera(const ViewStatus& status) {
     bool moved = false;
     float degrees = glm::degrees(key.fovy);
     ImGui::SetNextItemWidth(third);
-    if (ImGui::DragFloat("##fovy", &degrees, 0.2f, 1, 150, "%.1f deg", ImGuiSliderFlags_AlwaysClamp)) {
-        key.fovy = glm::radians(degrees);
-        moved = true;
+    if (key.height > 0) {
+        moved = ImGui::DragFloat("##height", &key.height, 0.005f * key.height, 1e-6f, 1e12f, "%.4g high", ImGuiSliderFlags_AlwaysClamp);
+        mark("orthographic");
+        tip("height of what is seen, scene units: the camera is orthographic");
+    } else {
+        if (ImGui::DragFloat("##fovy", &degrees, 0.2f, 1, 150, "%.1f deg", ImGuiSliderFlags_AlwaysClamp)) {
+            key.fovy = glm::radians(degrees);
+            moved = true;
+        }
+        mark("fovy");
+        tip("vertical angle of view");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(third);
+        moved = ImGui::DragFloat("##aperture", &key.aperture, 0.0005f, 0, 10, "lens %.4f", ImGuiSliderFlags_AlwaysClamp) || moved;
+        mark("aperture");
+        tip("radius of the lens, scene units; 0: everything is sharp");
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(third);
+        moved = ImGui::DragFloat("##focus", &key.focus, 0.005f * key.focus, 1e-6f, 1e12f, "focus %.3f", ImGuiSliderFlags_AlwaysClamp) || moved;
+        mark("focus");
+        tip("distance of what is sharp, scene units");
     }
-    mark("fovy");
-    tip("vertical angle of view");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(third);
-    moved = ImGui::DragFloat("##aperture", &key.aperture, 0.0005f, 0, 10, "lens %.4f", ImGuiSliderFlags_AlwaysClamp) || moved;
-    mark("aperture");
-    tip("radius of the lens, scene units; 0: everything is sharp");
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(third);
-    moved = ImGui::DragFloat("##focus", &key.focus, 0.005f * key.focus, 1e-4f, 1e6f, "focus %.3f", ImGuiSliderFlags_AlwaysClamp) || moved;
-    mark("focus");
-    tip("distance of what is sharp, scene units");
     if (moved) moveCamera(key);
     if (button("frame scene", "Frame", "all of the scene: F", third)) moveCamera(framed(key, graph_->bounds, float(graph_->size.x) / float(graph_->size.y)));
     ImGui::SameLine();

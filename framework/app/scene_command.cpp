@@ -141,8 +141,12 @@ Json toJson(const Scene& scene, const Facts& facts) {
     const CameraKey camera = scene.cameraAt(0);
     json["camera"]["position"] = vectorJson(camera.position);
     json["camera"]["target"] = vectorJson(camera.target);
-    json["camera"]["fovy"] = Json(double(glm::degrees(camera.fovy)));
-    json["camera"]["aperture"] = Json(double(camera.aperture));
+    if (camera.height > 0) {
+        json["camera"]["orthographic"] = Json(double(camera.height));
+    } else {
+        json["camera"]["fovy"] = Json(double(glm::degrees(camera.fovy)));
+        json["camera"]["aperture"] = Json(double(camera.aperture));
+    }
     json["camera"]["focus"] = Json(double(camera.focus));
     json["camera"]["keys"] = count(scene.camera.keys.size());
     const auto bounds = scene.bounds();
@@ -194,7 +198,8 @@ void print(const Scene& scene, const Facts& facts) {
     line("levels", fmt::format("policy {}", nameOf(scene.lod.mode)));
     const CameraKey camera = scene.cameraAt(0);
     line("camera",
-         fmt::format("at {}, towards {}, {:.3g} degrees{}", triple(camera.position), triple(camera.target), glm::degrees(camera.fovy),
+         fmt::format("at {}, towards {}, {}{}", triple(camera.position), triple(camera.target),
+                     camera.height > 0 ? fmt::format("orthographic, {:.3g} high", camera.height) : fmt::format("{:.3g} degrees", glm::degrees(camera.fovy)),
                      camera.aperture > 0 ? fmt::format(", lens {:.3g}, focus {:.3g}", camera.aperture, camera.focus) : ""));
     const auto bounds = scene.bounds();
     if (!scene.instances.empty()) line("bounds", triple(bounds[0]) + " to " + triple(bounds[1]));

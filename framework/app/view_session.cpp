@@ -26,7 +26,8 @@ double millisecondsSince(Clock::time_point start) { return std::chrono::duration
 void smooth(double& mean, double value) { mean = mean <= 0 || value > 2 * mean || value < 0.5 * mean ? value : 0.8 * mean + 0.2 * value; }
 
 bool sameView(const CameraKey& a, const CameraKey& b) {
-    return a.position == b.position && a.target == b.target && a.up == b.up && a.fovy == b.fovy && a.aperture == b.aperture && a.focus == b.focus;
+    return a.position == b.position && a.target == b.target && a.up == b.up && a.fovy == b.fovy && a.height == b.height &&
+           a.aperture == b.aperture && a.focus == b.focus;
 }
 
 /// The fields of a struct that can be looked at, those of its own structs as "outer.inner".

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Interpolation of animation channels and the matrices of all nodes at a frame.
 #include <framework/scene/animation.h>
+#include <framework/scene/flattening.h>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -84,7 +85,13 @@ std::vector<glm::mat4> Scene::nodeMatrices(float frame) const {
 bool Scene::deforms() const { return std::ranges::any_of(meshes, &Mesh::deforms); }
 
 glm::mat4 Scene::instanceMatrix(const Instance& instance, const std::vector<glm::mat4>& nodeMatrices) const {
-    return meshes[instance.mesh].skin != none ? glm::mat4(1) : nodeMatrices[instance.node];
+    const Mesh& mesh = meshes[instance.mesh];
+    if (mesh.skin != none) return glm::mat4(1);
+    const glm::mat4& matrix = nodeMatrices[instance.node];
+    if (mesh.shaper == none) return matrix;
+    glm::mat4 placed(sizeOf(matrix));
+    placed[3] = matrix[3];
+    return placed;
 }
 
 std::vector<std::vector<float>> Scene::morphWeights(float frame) const {

@@ -291,7 +291,7 @@ Bvh buildBvh(const BvhInput& input) {
     bvh.order.resize(references.size());
     bvh.triangles.resize(references.size());
     parallelFor(references.size(), 16384, [&](std::size_t begin, std::size_t end) {
-        const glm::dvec3 base(bvh.gridBase), scale(bvh.gridScale);
+        const glm::dvec3 base(BvhGrid{bvh.gridBase, bvh.gridScale}.origin()), scale(bvh.gridScale);
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t source = references[i].index;
             const glm::uvec3 t = triangles[source];
@@ -311,7 +311,7 @@ BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> triangles, con
     const Grid grid(wanted);
     std::vector<Bounds> leaves(range.triangles), inner(range.nodes);
     parallelFor(range.triangles, 16384, [&](std::size_t begin, std::size_t end) {
-        const glm::dvec3 base(grid.base), scale(grid.scale);
+        const glm::dvec3 base(BvhGrid{grid.base, grid.scale}.origin()), scale(grid.scale);
         for (std::size_t i = begin; i < end; ++i) {
             const PrimitiveRecord& c = corners[range.firstTriangle + i];
             const glm::vec3 v0 = positions[c.v0], v1 = positions[c.v1], v2 = positions[c.v2];
@@ -364,23 +364,38 @@ Bvh buildTopLevel(std::span<const Box> boxes) {
     return bvh;
 }
 
-TraceInstance traceInstance(std::uint32_t mesh, glm::vec3 gridBase, glm::vec3 gridScale, const glm::mat4& toWorld) {
+glm::vec3 BvhGrid::origin() const {
+    const glm::vec3 half = 0.5f * gridSteps * scale, nearest = glm::clamp(glm::vec3(0), base, base + 2.0f * half);
+    return glm::mix(nearest, base + half, glm::greaterThanEqual(glm::abs(nearest), half));
+}
+
+TraceInstance traceInstance(std::uint32_t mesh, const BvhGrid& grid, const glm::mat4& toWorld) {
     const glm::dmat4 exact(toWorld);
     const glm::dmat3 toObject = glm::inverse(glm::dmat3(exact));
-    const glm::dvec3 base(exact * glm::dvec4(gridBase, 1));
+    const glm::dvec3 origin(exact * glm::dvec4(grid.origin(), 1));
     TraceInstance instance{};
     for (int axis = 0; axis < 3; ++axis) {
         const glm::dvec3 row(toObject[0][axis], toObject[1][axis], toObject[2][axis]);
-        instance.toGrid[axis] = glm::vec4(row / double(gridScale[axis]), base[axis]);
+        instance.toGrid[axis] = glm::vec4(row / double(grid.scale[axis]), origin[axis]);
     }
     instance.mesh = mesh;
+    instance.boxes = grid.boxes();
     return instance;
+}
+
+std::array<glm::vec4, 3> traceRounding(const glm::mat4& toWorld) {
+    const auto sizes = [](const glm::dmat3& m) { return glm::dmat3(glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])); };
+    const glm::dmat3 linear(toWorld), inverse = sizes(glm::inverse(linear)), mixing = inverse * sizes(linear);
+    const glm::dvec3 moved = inverse * glm::abs(glm::dvec3(toWorld[3]));
+    std::array<glm::vec4, 3> rows;
+    for (int axis = 0; axis < 3; ++axis) rows[std::size_t(axis)] = glm::vec4(mixing[0][axis], mixing[1][axis], mixing[2][axis], moved[axis]);
+    return rows;
 }
 
 Box boundsOf(const Bvh& bvh, const glm::mat4& transform) {
     Box result;
     const glm::mat3 linear(transform), widening(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
-    const auto include = [&](glm::vec3 low, glm::vec3 high) {  // on the grid
+    const auto include = [&](glm::vec3 low, glm::vec3 high) {  // grid steps
         const glm::vec3 center = bvh.gridBase + 0.5f * (low + high) * bvh.gridScale, half = 0.5f * (high - low) * bvh.gridScale;
         const glm::vec3 at(transform * glm::vec4(center, 1)), reach = widening * half;
         result.low = glm::min(result.low, at - reach);
@@ -402,8 +417,9 @@ Box boundsOf(const Bvh& bvh, const glm::mat4& transform) {
     if (bvh.root < bvh_ref::leaf) {
         descend(descend, bvh.root, 3);
     } else {
+        const glm::vec3 base = BvhGrid{bvh.gridBase, bvh.gridScale}.boxes();
         for (const BvhTriangle& t : bvh.triangles)
-            for (const glm::vec3 v : {t.v0, t.v0 + t.e1, t.v0 + t.e2}) include(v, v);
+            for (const glm::vec3 v : {t.v0, t.v0 + t.e1, t.v0 + t.e2}) include(v - base, v - base);
     }
     return result;
 }

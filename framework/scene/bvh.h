@@ -27,12 +27,24 @@ struct BvhNode {
     std::array<std::uint32_t, 16> dwords;
 };
 
-/// v0, e1 = v1 - v0, e2 = v2 - v0 in grid space; then `mask`: material index + 1 where hits are to be tested against its alpha mask, 0: opaque; then two spare words.
+/// v0, e1 = v1 - v0, e2 = v2 - v0 in grid steps from BvhGrid::origin(); then `mask`: material index + 1 where hits are to be tested against its alpha mask, 0: opaque; then two spare words.
 struct BvhTriangle {
     glm::vec3 v0, e1, e2;
     std::uint32_t mask = 0, spare0 = 0, spare1 = 0;
 };
 static_assert(sizeof(BvhNode) == 64 && sizeof(BvhTriangle) == 48);
+
+/// Object space from a BVH's grid: object = base + scale * grid.
+struct BvhGrid {
+    glm::vec3 base{0}, scale{1};
+
+    /// From where triangles are measured, axis by axis: the point of the grid nearest to the origin of object space, where floats are finest, and so are
+    /// vertices (from a corner of wide ground, what stands in its middle would be placed no better than a ten-millionth of the width); the grid's
+    /// middle where all of it is farther than half its width. So no vertex x is farther from there than |x|.
+    LODESTIR_API glm::vec3 origin() const;
+    /// The grid's base in steps from there.
+    glm::vec3 boxes() const { return (base - origin()) / scale; }
+};
 
 struct Bvh {
     glm::vec3 gridBase{0}, gridScale{1};      ///< object = base + scale * grid
@@ -55,11 +67,6 @@ LODESTIR_API std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nod
 struct BvhRange {
     std::size_t firstNode = 0, nodes = 0, firstTriangle = 0, triangles = 0;
 };
-/// Object space from a BVH's grid: object = base + scale * grid.
-struct BvhGrid {
-    glm::vec3 base{0}, scale{1};
-};
-
 /// The triangles of one mesh level. All levels of a mesh share one `grid` box (the union of their bounds), because an instance has one
 /// transform into it; a default Box means the level's own bounds. `masks` (per triangle, see BvhTriangle::mask) may be empty.
 struct BvhInput {
@@ -80,7 +87,9 @@ LODESTIR_API BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> t
                               std::span<const PrimitiveRecord> corners, std::span<const glm::vec3> positions, const Box& box);
 
 /// How traversal enters an instance of meshes that are built on this grid.
-LODESTIR_API TraceInstance traceInstance(std::uint32_t mesh, glm::vec3 gridBase, glm::vec3 gridScale, const glm::mat4& toWorld);
+LODESTIR_API TraceInstance traceInstance(std::uint32_t mesh, const BvhGrid& grid, const glm::mat4& toWorld);
+/// What InstanceRecord.rounding holds, by rows.
+LODESTIR_API std::array<glm::vec4, 3> traceRounding(const glm::mat4& toWorld);
 /// Bounds of the BVH's content after a transform: of its upper boxes' corners, tighter than those of one box.
 LODESTIR_API Box boundsOf(const Bvh& bvh, const glm::mat4& transform);
 /// Builds the hierarchy over boxes; leaves are instance references (bvh_ref::instance | box). Triangles stay empty; order = boxes in

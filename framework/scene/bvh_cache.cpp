@@ -12,7 +12,7 @@
 namespace lodestir {
 namespace {
 
-constexpr std::string_view version = "lodestir bvh 1";  // of the builder and the file: change it when either changes
+constexpr std::string_view version = "lodestir bvh 2";  // of the builder and the file: change it when either changes
 constexpr std::size_t worthwhile = 16384;               // triangles: below, building is as fast as reading
 
 struct Header {

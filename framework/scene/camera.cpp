@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the camera is at a frame, and where it goes when nobody says.
+#include <framework/scene/axes.h>
 #include <framework/scene/camera.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@ CameraKey mixKeys(const CameraKey& a, const CameraKey& b, float t) {
         .target = glm::mix(a.target, b.target, t),
         .up = glm::mix(a.up, b.up, t),
         .fovy = glm::mix(a.fovy, b.fovy, t),
+        .height = glm::mix(a.height, b.height, t),
         .aperture = glm::mix(a.aperture, b.aperture, t),
         .focus = glm::mix(a.focus, b.focus, t),
     };
@@ -36,9 +38,10 @@ CameraKey Scene::cameraAt(float frame) const {
     CameraKey key = keyAt(camera.keys, frame);
     if (camera.node == none) return key;
     const glm::mat4 pose = nodeMatrices(frame)[camera.node];
+    const glm::mat3 axes = unitAxes(pose);
     key.position = glm::vec3(pose[3]);
-    key.target = key.position - glm::normalize(glm::vec3(pose[2])) * key.focus;
-    key.up = glm::normalize(glm::vec3(pose[1]));
+    key.target = key.position - axes[2] * key.focus;
+    key.up = axes[1];
     return key;
 }
 

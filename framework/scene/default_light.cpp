@@ -95,7 +95,9 @@ public:
     float distance(glm::vec3 origin, glm::vec3 along) const {
         float nearest = std::numeric_limits<float>::infinity();
         for (const Instance& instance : scene_.instances) {
-            const glm::mat4 toObject = glm::inverse(scene_.instanceMatrix(instance, pose_.nodes));
+            const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose_.nodes);
+            if (glm::determinant(glm::mat3(toWorld)) == 0) continue;  // nothing of it is seen
+            const glm::mat4 toObject = glm::inverse(toWorld);
             const glm::vec3 from(toObject * glm::vec4(origin, 1)), way = glm::mat3(toObject) * along;
             const Box& box = boxes_[instance.mesh];
             const glm::vec3 a = (box.low - from) / way, b = (box.high - from) / way, low = glm::min(a, b), high = glm::max(a, b);

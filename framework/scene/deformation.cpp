@@ -2,6 +2,8 @@
 #include <framework/scene/deformation.h>
 
 #include <framework/core/tasks.h>
+#include <framework/scene/flattening.h>
+#include <framework/scene/mesh_bvh.h>
 #include <framework/scene/shading_frame.h>
 
 #include <cmath>
@@ -45,7 +47,7 @@ glm::mat3 cofactors(const glm::mat3& m) { return {glm::cross(m[1], m[2]), glm::c
 void applySkin(PosedVertices& posed, const MeshLevel& level, std::span<const glm::mat4> joints) {
     parallelFor(posed.positions.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t v = begin; v < end; ++v) {
-            const glm::mat4 matrix = blend(level.joints[v], joints);
+            const glm::mat4 matrix = level.joints.empty() ? joints[0] : blend(level.joints[v], joints);
             const glm::mat3 linear(matrix), normals = cofactors(linear);
             const float side = glm::dot(linear[0], normals[0]) < 0 ? -1.0f : 1.0f;
             posed.positions[v] = glm::vec3(matrix * glm::vec4(posed.positions[v], 1));
@@ -81,10 +83,16 @@ std::size_t deformingVertices(const Mesh& mesh) {
 Pose poseAt(const Scene& scene, float frame) { return {scene.nodeMatrices(frame), scene.morphWeights(frame)}; }
 
 std::vector<glm::mat4> jointMatrices(const Scene& scene, const Mesh& mesh, std::span<const glm::mat4> nodes) {
+    if (mesh.shaper != none) return {glm::mat4(shapeOf(nodes[mesh.shaper], extentOf(mesh)))};
     std::vector<glm::mat4> matrices;
     if (mesh.skin == none) return matrices;
     const Skin& skin = scene.skins[mesh.skin];
-    for (std::size_t i = 0; i < skin.nodes.size(); ++i) matrices.push_back(nodes[skin.nodes[i]] * skin.inverseBind[i]);
+    for (std::size_t i = 0; i < skin.nodes.size(); ++i) {
+        glm::mat4 matrix = nodes[skin.nodes[i]] * skin.inverseBind[i];
+        const glm::mat3 thick(thickened(glm::dmat3(matrix), glm::dvec3(1)));
+        for (int axis = 0; axis < 3; ++axis) matrix[axis] = glm::vec4(thick[axis], matrix[axis].w);
+        matrices.push_back(matrix);
+    }
     return matrices;
 }
 

@@ -26,12 +26,13 @@ struct Pose {
 };
 LODESTIR_API Pose poseAt(const Scene& scene, float frame);
 
-/// From a mesh's vertices to the world by each joint of its skin: node matrix times inverse bind matrix (glTF 2.0, section 3.7.3.3).
-/// Empty without a skin.
+/// From a mesh's vertices to the world by each joint of its skin: node matrix times inverse bind matrix (glTF 2.0, section 3.7.3.3); the shape of its
+/// shaper; empty without both. Those without thickness are thickened (flattening.h).
 std::vector<glm::mat4> jointMatrices(const Scene& scene, const Mesh& mesh, std::span<const glm::mat4> nodes);
 
 /// p' = sum over joints of weight * matrix * (p + sum over targets of weight * displacement) (glTF 2.0, sections 3.7.2.2 and 3.7.3.3);
-/// normals by the transposed inverse of the blended matrix, flat ones from the moved faces. Parallel, the same bits for any core count.
+/// normals by the transposed inverse of the blended matrix, flat ones from the moved faces. A level without joints follows the only matrix, if there
+/// is one. Parallel, the same bits for any core count.
 LODESTIR_API PosedVertices deform(const MeshLevel& level, std::span<const float> weights, std::span<const glm::mat4> joints);
 /// The same for level `l` of a mesh of the scene; what does not deform stays as it is.
 LODESTIR_API PosedVertices deform(const Scene& scene, std::size_t mesh, std::size_t level, const Pose& pose);

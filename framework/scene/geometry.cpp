@@ -65,7 +65,7 @@ void Geometry::addLevel(const Scene& scene, std::size_t m, std::size_t l) {
                             .tangent = level.tangents.empty() ? 0 : packTangent(level.tangents[v]),
                             .uv0 = level.uv0.empty() ? glm::vec2(0) : level.uv0[v],
                             .uv1 = level.uv1.empty() ? glm::vec2(0) : level.uv1[v],
-                            .color = level.colors.empty() ? ~0u : packColor(level.colors[v])});
+                            .color = packColor(level.colors.empty() ? glm::vec4(1) : level.colors[v])});
 }
 
 void Geometry::pose(const Scene& scene, const Pose& pose) {

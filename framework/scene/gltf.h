@@ -21,7 +21,7 @@ struct GltfChoices {
 inline constexpr std::size_t maxNodes = std::size_t(1) << 22;
 
 /// Appends a model: its nodes under `parentNode` (`none`: as roots), meshes, materials, textures, lights, animation, and its first
-/// perspective camera when the scene has no camera yet (keys empty). Skins and morph targets deform their meshes. Extensions:
+/// camera when the scene has no camera yet (keys empty). Skins and morph targets deform their meshes. Extensions:
 /// KHR_lights_punctual, KHR_materials_emissive_strength, _ior, _transmission, _volume, _specular, _sheen, _anisotropy, _clearcoat, _unlit,
 /// KHR_materials_variants, KHR_texture_transform, KHR_mesh_quantization, EXT_meshopt_compression, KHR_meshopt_compression,
 /// EXT_mesh_gpu_instancing, MSFT_lod (nodes);

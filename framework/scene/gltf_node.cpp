@@ -256,16 +256,18 @@ private:
         }
         const tinygltf::Camera& camera = model_.cameras[static_cast<std::size_t>(index)];
         const std::string& name = import_.scene.nodes[place].name;
+        const bool orthographic = camera.type == "orthographic";
         const auto fovy = static_cast<float>(camera.perspective.yfov);
-        if (camera.type != "perspective") {
-            import_.note(fmt::format("camera \"{}\" is orthographic; it is ignored", name));
-        } else if (!(fovy > 0) || fovy >= 3.14159f) {
+        const float height = 2 * std::abs(static_cast<float>(camera.orthographic.ymag));  // ymag is half of it; its width follows from the image
+        if (orthographic && !(height > 0 && std::isfinite(height))) {
+            import_.note(fmt::format("camera \"{}\" has a height of {}; it is ignored", name, height));
+        } else if (!orthographic && (!(fovy > 0) || fovy >= 3.14159f)) {
             import_.note(fmt::format("camera \"{}\" has a field of view of {} radians; it is ignored", name, fovy));
         } else if (!import_.scene.camera.keys.empty()) {
             if (import_.scene.camera.node != none) import_.note("only the first camera is used");
         } else {
             import_.scene.camera.node = place;
-            import_.scene.camera.keys = {CameraKey{.fovy = fovy}};
+            import_.scene.camera.keys = {orthographic ? CameraKey{.height = height} : CameraKey{.fovy = fovy}};
             import_.note(fmt::format("camera \"{}\" of the model is used", name));
         }
     }

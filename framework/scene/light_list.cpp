@@ -3,6 +3,7 @@
 
 #include <framework/image/srgb.h>
 #include <framework/scene/alias_table.h>
+#include <framework/scene/axes.h>
 #include <framework/scene/shading_frame.h>
 
 #include <glm/gtc/constants.hpp>
@@ -53,7 +54,7 @@ LightRecord pointlike(const Light& light, const glm::mat4& toWorld) {
     record.type = light.type == LightType::point ? LIGHT_POINT : light.type == LightType::spot ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
     record.instance = record.primitive = NONE;
     record.position = glm::vec3(toWorld[3]);
-    record.direction = -glm::normalize(glm::vec3(toWorld[2]));
+    record.direction = -unitAxes(toWorld)[2];
     record.intensity = light.color * light.intensity;
     record.cosInner = std::cos(light.innerCone);
     record.cosOuter = std::cos(std::max(light.outerCone, light.innerCone + 1e-4f));

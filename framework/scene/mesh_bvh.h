@@ -8,6 +8,8 @@ namespace lodestir {
 
 /// Box over all levels, object space.
 LODESTIR_API Box boundsOf(const Mesh& mesh);
+/// Its sides; 0 without vertices.
+glm::dvec3 extentOf(const Mesh& mesh);
 /// From the cache on disk where it was built before. World.primitives holds the triangles in Bvh::order, level after level, mesh after mesh.
 LODESTIR_API Bvh meshBvh(const Scene& scene, const Mesh& mesh, std::size_t level);
 

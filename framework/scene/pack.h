@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Unit vectors and colours in 32 bits: what framework/shaders/base/pack.glsl reads. The layouts are written there.
+// Unit vectors in 32 bits and colours in 64: what framework/shaders/base/pack.glsl reads. The layouts are written there.
 #pragma once
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace lodestir {
@@ -37,10 +38,12 @@ inline std::uint32_t packTangent(glm::vec4 tangent) {
 
 inline glm::vec4 unpackTangent(std::uint32_t bits) { return {unpackNormal(bits & ~1u), (bits & 1u) ? -1.0f : 1.0f}; }
 
-/// 8-bit unorm, red in the low byte.
-inline std::uint32_t packColor(glm::vec4 color) {
-    const glm::uvec4 q(glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f);
-    return q.x | q.y << 8 | q.z << 16 | q.w << 24;
+/// Half floats: 11 bits of relative precision from 6e-5 to 65504, where linear colours of 8 bits have none left in the dark. What is larger
+/// becomes 65504, what is negative or no number 0.
+inline glm::uvec2 packColor(glm::vec4 color) {
+    constexpr float largest = 65504;
+    for (int i = 0; i < 4; ++i) color[i] = color[i] > 0 ? std::min(color[i], largest) : 0;
+    return {glm::packHalf2x16(glm::vec2(color)), glm::packHalf2x16(glm::vec2(color.z, color.w))};
 }
 
 }  // namespace lodestir

@@ -5,6 +5,7 @@
 #include <framework/scene/camera.h>
 #include <framework/scene/default_light.h>
 #include <framework/scene/deformation.h>
+#include <framework/scene/flattening.h>
 #include <framework/scene/gltf.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/panes.h>
@@ -103,6 +104,7 @@ Scene loadScene(const Path& path) {
     if (scene.instances.empty()) scene.notes.push_back("there are no triangles to be seen");
     if (scene.materials.empty()) scene.materials.push_back({.name = "default"});
     noteLevels(scene);
+    shapeFlatInstances(scene);
     if (scene.camera.keys.empty())
         addCamera(scene);
     else if (scene.camera.node != none)

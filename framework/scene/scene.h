@@ -117,7 +117,8 @@ struct Mesh {
     std::vector<float> weights;     ///< of the morph targets, while nothing animates them
     std::uint32_t node = none;      ///< whose animation moves the weights
     std::uint32_t skin = none;      ///< takes the vertices into the world, whatever its instance's node does
-    bool deforms() const { return skin != none || !weights.empty(); }
+    std::uint32_t shaper = none;    ///< node of its only instance, whose matrix may be flat: the vertices take its shape (flattening.h)
+    bool deforms() const { return skin != none || shaper != none || !weights.empty(); }
 };
 
 /// A node of the hierarchy. Its local matrix is TRS unless `matrix` is given.
@@ -166,6 +167,7 @@ struct CameraKey {
     float frame = 0;
     glm::vec3 position{0, 0, 5}, target{0}, up{0, 1, 0};
     float fovy = 0.785398f;  ///< radians, vertical
+    float height = 0;        ///< of what an orthographic camera sees, scene units; 0: perspective
     float aperture = 0;      ///< lens radius, scene units; 0: pinhole
     float focus = 1;         ///< distance of the plane in focus along the view direction, scene units
 };
@@ -219,13 +221,13 @@ struct Scene {
     std::vector<std::string> notes;   ///< what the loader decided: camera framed, sky added, extensions ignored, ...
 
     bool deforms() const;             ///< whether any mesh does
-    /// Object to world, given those of all nodes: the identity for a mesh whose skin takes it there.
+    /// Object to world, given those of all nodes: the identity for a mesh whose skin takes it there, size and place for one that its node shapes.
     LODESTIR_API glm::mat4 instanceMatrix(const Instance& instance, const std::vector<glm::mat4>& nodeMatrices) const;
     /// World matrices of all nodes at a frame.
     LODESTIR_API std::vector<glm::mat4> nodeMatrices(float frame) const;
     /// Weights of the morph targets of all meshes at a frame.
     LODESTIR_API std::vector<std::vector<float>> morphWeights(float frame) const;
-    /// Camera pose and lens at a frame (position, target, up, fovy, aperture, focus).
+    /// Camera pose and lens at a frame.
     LODESTIR_API CameraKey cameraAt(float frame) const;
     /// Bounds of all instances' finest levels as they stand at frame 0; {1e30, -1e30} when empty.
     LODESTIR_API std::array<glm::vec3, 2> bounds() const;

@@ -62,16 +62,24 @@ Environment readMap(Fields& fields, const Path& folder, std::vector<std::string>
     }
 }
 
-CameraKey readKey(Fields& fields, CameraKey key, bool& hasFocus) {
-    fields.vector("position", key.position);
-    fields.vector("target", key.target);
-    fields.vector("up", key.up);
+void readLens(Fields& fields, CameraKey& key, bool& hasFocus) {
     float degrees = glm::degrees(key.fovy);
     fields.number("fovy", degrees, 0.01, 179);
     if (fields.find("fovy")) key.fovy = glm::radians(degrees);
     fields.number("aperture", key.aperture, 0);
     fields.number("focus", key.focus, 1e-6);
     hasFocus = hasFocus || fields.find("focus");
+    fields.number("orthographic", key.height, 1e-6);
+    if (key.height > 0 && (fields.find("fovy") || key.aperture > 0))
+        fields.problem(fields.where(), fmt::format("{} is orthographic: it has neither an angle of view nor a lens", fields.what()),
+                       "give \"orthographic\", or \"fovy\" and \"aperture\"");
+}
+
+CameraKey readKey(Fields& fields, CameraKey key, bool& hasFocus) {
+    fields.vector("position", key.position);
+    fields.vector("target", key.target);
+    fields.vector("up", key.up);
+    readLens(fields, key, hasFocus);
     const glm::vec3 view = key.target - key.position;
     if (!(glm::length(view) > 0)) {
         fields.problem(fields.where(), fmt::format("{} looks at its own position", fields.what()), "give it another \"target\"");
@@ -156,7 +164,8 @@ void readCamera(const Json& value, Scene& scene, Problems& problems) {
     if (!keyframes || fields.find("position") || fields.find("target"))
         base = readKey(fields, base, hasFocus);
     else
-        fields.allow({"position", "target", "up", "fovy", "aperture", "focus"});
+        readLens(fields, base, hasFocus);
+    fields.allow({"position", "target", "up"});
     fields.finish();
     if (!keyframes) {
         scene.camera.keys = {base};
@@ -174,6 +183,8 @@ void readCamera(const Json& value, Scene& scene, Problems& problems) {
         frame.finish();
         if (hasFrame && !keys.empty() && key.frame <= keys.back().frame)
             frame.problem(frame.where(), fmt::format("keyframe {} is not later than the one before", i));
+        if (!keys.empty() && (key.height > 0) != (keys.back().height > 0))
+            frame.problem(frame.where(), fmt::format("of keyframes {} and {} only one is orthographic", i - 1, i));
         keys.push_back(key);
     }
     scene.camera.keys = std::move(keys);

@@ -14,8 +14,9 @@ void readEnvironment(const Json& value, const Path& folder, Scene& scene, Proble
 /// each light gets a node of its own.
 void readLights(const Json& value, Scene& scene, Problems& problems);
 
-/// {"position", "target", "up", "fovy" (degrees), "aperture", "focus", "keyframes": [{"frame", the same again}]}. What a keyframe leaves
-/// out is taken from the camera itself; a focus that nobody gives is the distance of the target.
+/// {"position", "target", "up", "fovy" (degrees) or "orthographic" (height of the view, scene units), "aperture", "focus",
+/// "keyframes": [{"frame", the same again}]}. What a keyframe leaves out is taken from the camera itself; a focus that nobody gives is the
+/// distance of the target.
 void readCamera(const Json& value, Scene& scene, Problems& problems);
 
 }  // namespace lodestir

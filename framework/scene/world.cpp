@@ -2,6 +2,7 @@
 #include <framework/scene/world.h>
 
 #include <framework/scene/alias_table.h>
+#include <framework/scene/axes.h>
 #include <framework/scene/environment_table.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/light_list.h>
@@ -80,18 +81,23 @@ void putRows(const glm::mat4& matrix, vec4* rows) {
     for (int r = 0; r < 3; ++r) rows[r] = glm::row(matrix, r);
 }
 
+/// Does the matrix leave a mesh its volume? Those that leave it an area have a shaper (scene/flattening.h); of others there is nothing to be seen.
+bool isInvertible(const glm::mat4& matrix) {
+    const double volume = glm::determinant(glm::dmat3(matrix));
+    return volume != 0 && std::isfinite(volume);
+}
+
 CameraRecord cameraRecord(const CameraKey& camera, glm::uvec2 size) {
     CameraRecord record{};
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
-    glm::vec3 right = glm::cross(forward, camera.up);
-    if (glm::dot(right, right) < 1e-12f) right = glm::cross(forward, glm::vec3(0, 0, 1));  // looking straight along `up`
-    right = glm::normalize(right);
-    const float height = std::tan(0.5f * camera.fovy);
+    const ViewAxes axes = viewAxes(camera);
+    const bool orthographic = camera.height > 0;
+    const float height = orthographic ? 0.5f * camera.height : std::tan(0.5f * camera.fovy);
     record.position = camera.position;
-    record.aperture = camera.aperture;
-    record.right = right * (height * float(size.x) / float(size.y));
-    record.up = glm::cross(right, forward) * height;
-    record.forward = forward;
+    record.aperture = orthographic ? 0 : camera.aperture;
+    record.right = axes.right * (height * float(size.x) / float(size.y));
+    record.up = axes.up * height;
+    record.forward = axes.forward;
+    record.orthographic = orthographic;
     record.focus = camera.focus;
     record.pixelAngle = 2 * height / float(size.y);
     return record;
@@ -198,15 +204,21 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     std::vector<InstanceRecord> records;
     Box all;
     for (const Instance& instance : scene_.instances) {
-        const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose.nodes), toObject = glm::inverse(toWorld);
+        const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose.nodes);
+        InstanceRecord record{};
+        record.mesh = instance.mesh;
+        putRows(toWorld, record.toWorld);
+        if (!isInvertible(toWorld)) {
+            record.flags = INSTANCE_HIDDEN;
+            boxes.emplace_back();
+            traced.push_back({.mesh = instance.mesh});
+            records.push_back(record);
+            continue;
+        }
         boxes.push_back(transformed(geometry_->bounds[instance.mesh], toWorld));
         all.add(boxes.back());
-        const BvhGrid& grid = geometry_->grids[instance.mesh];
-        traced.push_back(traceInstance(instance.mesh, grid.base, grid.scale, toWorld));
-        InstanceRecord record{};
-        putRows(toWorld, record.toWorld);
-        putRows(toObject, record.toObject);
-        record.mesh = instance.mesh;
+        traced.push_back(traceInstance(instance.mesh, geometry_->grids[instance.mesh], toWorld));
+        std::ranges::copy(traceRounding(toWorld), record.rounding);
         const std::vector<glm::mat4> joints = jointMatrices(scene_, scene_.meshes[instance.mesh], pose.nodes);
         record.flags = glm::determinant(glm::mat3(joints.empty() ? toWorld : joints[0])) < 0 ? INSTANCE_MIRRORED : 0;
         records.push_back(record);

@@ -60,7 +60,7 @@ void add(Hash& hash, const AnimationChannel& channel) {
     addList(hash, channel.values);
 }
 
-void add(Hash& hash, const CameraKey& key) { addAll(hash, key.frame, key.position, key.target, key.up, key.fovy, key.aperture, key.focus); }
+void add(Hash& hash, const CameraKey& key) { addAll(hash, key.frame, key.position, key.target, key.up, key.fovy, key.height, key.aperture, key.focus); }
 
 /// All shaders of the folder, because a pass may dispatch more than the one it is declared with, and the pass's own code.
 void addSources(Hash& hash, const Plugin& plugin) {

@@ -63,7 +63,7 @@ bool scatter(inout Path p, World w, Hit hit) {
         p.radiance += p.throughput * environmentRadiance(w, direction) * emissionWeight(p.pdf, environmentPdf(w, direction));
         return false;
     }
-    Surface s = surfaceAt(w, hit, direction);
+    Surface s = surfaceAt(w, hit, p.ray);
     p.throughput *= segmentTransmittance(w, s, hit.t);
     vec3 emitted = emittedRadiance(w, s);
     if (emitted != vec3(0)) p.radiance += p.throughput * emitted * emissionWeight(p.pdf, lightPdf(w, hit.instance, hit.primitive, direction, hit.t));

@@ -169,7 +169,7 @@ bool start(inout Path p, World to, ivec2 pixel, uint item) {
         return shiftStart(p.shift, to, path, hit, there, frameSize(), centre, jacobian, p.refresh);
     }
     ivec2 landing;
-    if (!project(to, frameSize(), first, cameraRay(from, filmOf(pixel, hit.hit.film, frameSize()), hit.hit.lens).direction, landing)) return false;
+    if (!project(to, pixel, frameSize(), first, cameraRay(from, filmOf(pixel, hit.hit.film, frameSize()), hit.hit.lens).direction, landing)) return false;
     if (back) {
         p.confidence = capped(history(place(landing)));
         if (p.confidence == 0) return false;

@@ -38,15 +38,20 @@ bool pathStep(inout Path p, World w, Hit hit) {
     return false;
 }
 
-// Where last frame's image showed the point that is now at `film`, relative to it, in pixels. Without a hit: the point at infinity.
+// Where last frame's image showed what the pixel's ray hit, relative to where this one does, in pixels. Without a hit: the point at infinity. Both by
+// projection: what rounding moves the point by, which barycentrics of ground seen from close by make pixels of, is in both.
 vec2 motionOf(Path p, World w) {
 #if HAS_worldPrev
     if (!historyValid()) return vec2(0);
     World before = worldPrev();
-    vec3 point = p.hit.primitive == NONE ? before.camera.position + cameraRay(w, p.film, vec2(0.5)).direction * 1e6
-                                         : positionOn(before, p.hit.instance, p.hit.primitive, p.hit.barycentrics);
-    vec3 seen = cameraProject(before, point, p.lens);
-    return seen.z > 0 ? (seen.xy - p.film) * vec2(depthSize()) : vec2(0);
+    vec3 was, is = vec3(p.film, 1);
+    if (p.hit.primitive == NONE) {
+        was = cameraProjectSky(before, p.ray.direction, p.film, p.lens);
+    } else {
+        was = cameraProject(before, positionOn(before, p.hit.instance, p.hit.primitive, p.hit.barycentrics), p.lens);
+        is = cameraProject(w, positionOn(w, p.hit.instance, p.hit.primitive, p.hit.barycentrics), p.lens);
+    }
+    return was.z > 0 && is.z > 0 ? (was.xy - is.xy) * vec2(depthSize()) : vec2(0);
 #else
     return vec2(0);
 #endif

@@ -36,12 +36,15 @@ Leaf leafOf(std::uint32_t reference) {
     return {reference & (bvh_ref::masked - 1), ((reference >> 28) & 3) + 1, (reference & bvh_ref::masked) != 0};
 }
 
-/// Where a ray in grid space meets the nearest triangle: visits every child whose box the ray passes before the nearest hit so far, in float
+/// Of the boxes, in the steps from the origin that triangles are in.
+glm::vec3 boxesOf(const Bvh& bvh) { return BvhGrid{bvh.gridBase, bvh.gridScale}.boxes(); }
+
+/// Where a ray in grid space, measured like triangles, meets the nearest triangle: visits every child whose box the ray passes before the nearest hit so far, in float
 /// arithmetic like the shaders'.
 TestHit walk(const Bvh& bvh, TestRay ray) {
     TestHit best;
     const auto slope = 1.0f / glm::mix(ray.direction, glm::vec3(1e-18f), glm::lessThan(glm::abs(ray.direction), glm::vec3(1e-18f)));
-    const glm::vec3 offset = -ray.origin * slope;
+    const glm::vec3 offset = (boxesOf(bvh) - ray.origin) * slope;
     const std::function<void(std::uint32_t)> visit = [&](std::uint32_t reference) {
         if (reference == bvh_ref::empty) return;
         if (reference >= bvh_ref::leaf) {
@@ -90,7 +93,7 @@ void expectSound(const Bvh& bvh, std::size_t triangles) {
                 ++seen[i];
                 const BvhTriangle& t = bvh.triangles[i];
                 // 0.2 of a step must be left for the rounding of traversal.
-                for (const glm::vec3 corner : {t.v0, t.v0 + t.e1, t.v0 + t.e2})
+                for (const glm::vec3 corner : {t.v0 - boxesOf(bvh), t.v0 + t.e1 - boxesOf(bvh), t.v0 + t.e2 - boxesOf(bvh)})
                     tooSmall += glm::any(glm::lessThan(corner - 0.2f, low)) || glm::any(glm::greaterThan(corner + 0.2f, high));
             }
             return;
@@ -123,7 +126,7 @@ void expectSameHits(const Bvh& bvh, std::uint32_t seed, int rays) {
     Draws draws(seed);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
-        const glm::vec3 origin = draws.point(-20000, 90000), target = draws.point(0, 65535);
+        const glm::vec3 origin = boxesOf(bvh) + draws.point(-20000, 90000), target = boxesOf(bvh) + draws.point(0, 65535);
         TestRay ray{origin, target - origin};
         if (i % 4 == 0) ray.direction[i / 4 % 3] = 0;  // along a plane of the grid
         const TestHit tree = walk(bvh, ray), all = tryAll(bvh, ray);
@@ -165,7 +168,7 @@ TEST(Bvh, RaysThroughCornersAreNotLost) {
     Draws draws(6);
     int lost = 0;
     for (const BvhTriangle& t : bvh.triangles) {
-        const glm::vec3 at = t.v0 + 0.001f * t.e1 + 0.001f * t.e2, origin = draws.point(-20000, 90000);
+        const glm::vec3 at = t.v0 + 0.001f * t.e1 + 0.001f * t.e2, origin = boxesOf(bvh) + draws.point(-20000, 90000);
         const TestRay ray{origin, at - origin};
         lost += walk(bvh, ray).t != tryAll(bvh, ray).t;
     }
@@ -175,14 +178,33 @@ TEST(Bvh, RaysThroughCornersAreNotLost) {
 TEST(Bvh, TrianglesAreInGridSpace) {
     const Soup soup = randomSoup(7, 500, 0.1f);
     const Bvh bvh = build(soup);
+    const glm::vec3 origin = BvhGrid{bvh.gridBase, bvh.gridScale}.origin();
     for (std::size_t i = 0; i < bvh.order.size(); ++i) {
         const glm::uvec3 corners = soup.triangles[bvh.order[i]];
         const BvhTriangle& t = bvh.triangles[i];
         const glm::vec3 grid[] = {t.v0, t.v0 + t.e1, t.v0 + t.e2};
         for (int c = 0; c < 3; ++c) {
-            const glm::vec3 object = bvh.gridBase + bvh.gridScale * grid[c];
+            const glm::vec3 object = origin + bvh.gridScale * grid[c], box = grid[c] - boxesOf(bvh);
             EXPECT_LT(glm::distance(object, soup.positions[corners[c]]), 1e-6f);
-            EXPECT_TRUE(glm::all(glm::greaterThan(grid[c], glm::vec3(1))) && glm::all(glm::lessThan(grid[c], glm::vec3(65534))));
+            EXPECT_TRUE(glm::all(glm::greaterThan(box, glm::vec3(1))) && glm::all(glm::lessThan(box, glm::vec3(65534))));
+        }
+    }
+}
+
+// Vertices near the origin of object space keep their precision however wide the mesh is, and those far from it that of their distance to the mesh.
+TEST(Bvh, WideMeshesKeepWhatIsSmallInTheirMiddle) {
+    Soup wide;
+    wide.add({-1e5f, 0, 1e5f}, {1e5f, 0, 1e5f}, {1e5f, 0, -1e5f});
+    wide.add({0.001f, 0.02f, 0.003f}, {0.004f, 0.02f, 0.003f}, {0.001f, 0.02f, 0.008f});
+    Soup far;
+    far.add({8297640, 533512, 412345}, {8297650, 533512, 412345}, {8297640, 533512, 412355});
+    far.add({8297641, 533513, 412346}, {8297642, 533513, 412346}, {8297641, 533513, 412347});
+    for (const Soup& soup : {wide, far}) {
+        const Bvh bvh = build(soup);
+        const glm::dvec3 origin(BvhGrid{bvh.gridBase, bvh.gridScale}.origin()), scale(bvh.gridScale);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const glm::dvec3 corner(soup.positions[soup.triangles[bvh.order[i]].x]), stored = origin + scale * glm::dvec3(bvh.triangles[i].v0);
+            for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(stored[axis], corner[axis], 0x1p-23 * std::abs(corner[axis] - origin[axis]));
         }
     }
 }

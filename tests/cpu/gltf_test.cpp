@@ -432,13 +432,13 @@ TEST(Gltf, UnlitMaterialsEmitTheirBaseColour) {
 }
 
 // If this fails, lights shine elsewhere and the camera of the file isn't used.
-TEST(Gltf, ReadsLightsAndTheFirstPerspectiveCamera) {
+TEST(Gltf, ReadsLightsAndTheFirstCamera) {
     GltfModel model;
     model.addTriangle();
     model.json["extensionsUsed"] = {"KHR_lights_punctual"};
     model.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"}, {"color", {1, 0, 0}}, {"intensity", 7}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.2}}}}};
-    model.json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 9}}}},
+    model.json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 0}, {"znear", 0.1}, {"zfar", 9}}}},
                              {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
     model.json["nodes"].push_back({{"camera", 0}});
     model.json["nodes"].push_back({{"camera", 1}, {"translation", {0, 0, 4}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
@@ -447,12 +447,26 @@ TEST(Gltf, ReadsLightsAndTheFirstPerspectiveCamera) {
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].type, LightType::spot);
     EXPECT_FLOAT_EQ(scene.lights[0].outerCone, 0.2f);
-    EXPECT_TRUE(hasNote(scene, "orthographic"));
+    EXPECT_TRUE(hasNote(scene, "has a height of 0; it is ignored"));
     const CameraKey camera = scene.cameraAt(0);
     EXPECT_FLOAT_EQ(camera.fovy, 0.5f);
     expectNear(camera.position, {0, 0, 4});
     expectNear(glm::normalize(camera.target - camera.position), {0, 0, -1});
     EXPECT_NEAR(camera.focus, 4, 1e-4);  // the triangle is in focus
+}
+
+// If this fails, drawings show twice or half of what they should: xmag and ymag are halves of width and height.
+TEST(Gltf, ReadsOrthographicCameras) {
+    GltfModel model;
+    model.addTriangle();
+    model.json["cameras"] = {{{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 1.25}, {"znear", 0.1}, {"zfar", 9}}}}};
+    model.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 4}}, {"scale", {3, 3, 0}}});
+    model.json["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = loadScene(model.write(folder() / "camera.gltf"));
+    const CameraKey camera = scene.cameraAt(0);
+    EXPECT_FLOAT_EQ(camera.height, 2.5f);
+    expectNear(camera.position, {0, 0, 4});
+    expectNear(glm::normalize(camera.target - camera.position), {0, 0, -1});  // though the node is flat
 }
 
 struct Damage {

@@ -21,9 +21,10 @@ void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-4f)
 
 /// Where a point lies in the picture, 0..1 to the right and downwards: the pinhole, written out.
 glm::vec2 project(const CameraKey& camera, const glm::vec3& point, float aspect) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.position), right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+    const glm::vec3 forward = glm::normalize(camera.target - camera.position), right = glm::normalize(glm::cross(forward, camera.up)),
+                    up = glm::cross(right, forward);
     const glm::vec3 v = point - camera.position;
-    const float height = std::tan(camera.fovy / 2) * glm::dot(v, forward);
+    const float height = camera.height > 0 ? camera.height / 2 : std::tan(camera.fovy / 2) * glm::dot(v, forward);
     return {0.5f + 0.5f * glm::dot(v, right) / (height * aspect), 0.5f - 0.5f * glm::dot(v, up) / height};
 }
 
@@ -67,12 +68,35 @@ TEST(OrbitCamera, DollyKeepsWhatIsSharpSharp) {
     EXPECT_GT(dollied(camera, 0).position.z, 0);  // never into the target
 }
 
+// Nothing becomes larger by coming nearer: the picture shrinks or grows.
+TEST(OrbitCamera, OrthographicDollyAndPan) {
+    CameraKey camera = fromFront();
+    camera.height = 3;
+    const CameraKey moved = dollied(camera, 0.5f);
+    EXPECT_EQ(moved.position, camera.position);
+    EXPECT_NEAR(moved.height, 1.5f, 1e-6f);
+    expectNear(panned(camera, 0.5f, -1).target, {1.5f, -3, 0});
+    EXPECT_EQ(cameraJson(camera).dump(-1),
+              Json::parse(R"({"position":[0.0,0.0,5.0],"target":[0.0,0.0,0.0],"up":[0.0,1.0,0.0],"orthographic":3.0,"focus":5.0})", "x")
+                  .dump(-1));
+}
+
+TEST(OrbitCamera, DollyAtAnyScale) {
+    for (const float scale : {1e-5f, 1e8f}) {
+        const CameraKey camera{.position = {0, 0, scale}, .focus = scale};
+        EXPECT_NEAR(dollied(camera, 0.9f).position.z, 0.9f * scale, 1e-6f * scale);
+    }
+}
+
 TEST(OrbitCamera, FramesAllCorners) {
     const std::array<glm::vec3, 2> bounds{glm::vec3(-3, 2, -1), glm::vec3(4, 5, 7)};
-    for (const float aspect : {0.5f, 1.0f, 1.78f}) {
-        const CameraKey camera = framed(orbited(fromFront(), 1.1f, 0.5f), bounds, aspect);
+    for (const float aspect : {0.5f, 1.0f, 1.78f, -1.78f}) {
+        CameraKey start = fromFront();
+        start.height = aspect < 0 ? 2 : 0;
+        const CameraKey camera = framed(orbited(start, 1.1f, 0.5f), bounds, std::abs(aspect));
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec2 at = project(camera, {bounds[corner & 1].x, bounds[(corner >> 1) & 1].y, bounds[corner >> 2].z}, aspect);
+            const glm::vec2 at =
+                project(camera, {bounds[corner & 1].x, bounds[(corner >> 1) & 1].y, bounds[corner >> 2].z}, std::abs(aspect));
             EXPECT_TRUE(at.x > 0 && at.x < 1 && at.y > 0 && at.y < 1) << aspect << " " << corner;
         }
     }
@@ -80,19 +104,24 @@ TEST(OrbitCamera, FramesAllCorners) {
 }
 
 TEST(OrbitCamera, WarpIsExactInThePlaneOfTheTarget) {
-    const CameraKey from = orbited(fromFront(), 0.4f, 0.3f);
-    CameraKey to = dollied(panned(orbited(from, 0.25f, -0.2f), 0.1f, 0.2f), 0.7f);
-    to.fovy = 0.6f;
-    const float aspect = 1.6f;
-    const glm::mat3 warp = warpBetween(from, to, aspect);
-    const glm::vec3 forward = glm::normalize(from.target - from.position), right = glm::normalize(glm::cross(forward, from.up)), up = glm::cross(right, forward);
-    for (const glm::vec2 offset : {glm::vec2(0, 0), glm::vec2(1, 0.3f), glm::vec2(-0.4f, 0.9f)}) {
-        const glm::vec3 point = from.target + offset.x * right + offset.y * up;
-        const glm::vec2 seen = project(to, point, aspect), was = project(from, point, aspect);
-        const glm::vec3 mapped = warp * glm::vec3(seen, 1);
-        EXPECT_GT(mapped.z, 0);
-        EXPECT_NEAR(mapped.x / mapped.z, was.x, 1e-4f);
-        EXPECT_NEAR(mapped.y / mapped.z, was.y, 1e-4f);
+    for (const glm::vec2 heights : {glm::vec2(0, 0), glm::vec2(3, 2), glm::vec2(0, 2), glm::vec2(3, 0)}) {
+        CameraKey from = orbited(fromFront(), 0.4f, 0.3f);
+        CameraKey to = dollied(panned(orbited(from, 0.25f, -0.2f), 0.1f, 0.2f), 0.7f);
+        to.fovy = 0.6f;
+        from.height = heights.x;
+        to.height = heights.y;
+        const float aspect = 1.6f;
+        const glm::mat3 warp = warpBetween(from, to, aspect);
+        const glm::vec3 forward = glm::normalize(from.target - from.position), right = glm::normalize(glm::cross(forward, from.up)),
+                        up = glm::cross(right, forward);
+        for (const glm::vec2 offset : {glm::vec2(0, 0), glm::vec2(1, 0.3f), glm::vec2(-0.4f, 0.9f)}) {
+            const glm::vec3 point = from.target + offset.x * right + offset.y * up;
+            const glm::vec2 seen = project(to, point, aspect), was = project(from, point, aspect);
+            const glm::vec3 mapped = warp * glm::vec3(seen, 1);
+            EXPECT_GT(mapped.z, 0);
+            EXPECT_NEAR(mapped.x / mapped.z, was.x, 1e-4f);
+            EXPECT_NEAR(mapped.y / mapped.z, was.y, 1e-4f);
+        }
     }
 }
 
@@ -108,7 +137,10 @@ TEST(OrbitCamera, JsonIsASceneFilesCamera) {
     CameraKey camera = fromFront();
     camera.fovy = pi / 4;
     camera.aperture = 0.0125f;
-    EXPECT_EQ(cameraJson(camera).dump(-1), Json::parse(R"({"position":[0.0,0.0,5.0],"target":[0.0,0.0,0.0],"up":[0.0,1.0,0.0],"fovy":45.0,"aperture":0.0125,"focus":5.0})", "x").dump(-1));
+    EXPECT_EQ(cameraJson(camera).dump(-1),
+              Json::parse(
+                  R"({"position":[0.0,0.0,5.0],"target":[0.0,0.0,0.0],"up":[0.0,1.0,0.0],"fovy":45.0,"aperture":0.0125,"focus":5.0})", "x")
+                  .dump(-1));
 }
 
 }  // namespace

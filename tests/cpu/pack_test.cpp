@@ -47,7 +47,17 @@ TEST(Pack, KnownTangents) {
     EXPECT_EQ(packTangent({1, 0, 0, -1}), 0x00007fffu);
 }
 
+// Of any colour that 16-bit files can hold, dark ones included, at most half a thousandth is lost, or what half floats don't resolve.
+TEST(Pack, DarkColorsKeepTheirPrecision) {
+    for (int i = 1; i < 65536; ++i) {
+        const float value = float(i) / 65535;
+        const float back = glm::unpackHalf2x16(packColor(glm::vec4(value)).x).x;
+        ASSERT_NEAR(back, value, std::max(value * 0x1p-11f, 0x1p-25f)) << i;
+    }
+}
+
 TEST(Pack, Colors) {
-    EXPECT_EQ(packColor({0.2f, 0, 1, 0.5f}), 0x80ff0033u);
-    EXPECT_EQ(packColor({-1, 2, 0, 1}), 0xff00ff00u);
+    EXPECT_EQ(packColor({1, 0, 0.1f, 0.5f}), glm::uvec2(0x00003c00u, 0x38002e66u));
+    EXPECT_EQ(packColor({0.001f, 131.0f / 65535, 7, 1}), glm::uvec2(0x18181419u, 0x3c004700u));
+    EXPECT_EQ(packColor({-1, 1e6f, std::numeric_limits<float>::quiet_NaN(), 1}), glm::uvec2(0x7bff0000u, 0x3c000000u));
 }

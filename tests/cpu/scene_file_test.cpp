@@ -157,6 +157,18 @@ TEST(SceneFile, ReadsCameraAndKeyframes) {
     EXPECT_FLOAT_EQ(scene.exposure, -1.5f);
 }
 
+// What the camera says of its lens holds for keyframes, with a place of its own or without.
+TEST(SceneFile, OrthographicCamerasAndInheritedLenses) {
+    const Scene scene = load(R"({"format": 1, "models": {"one": {"file": "triangle.gltf"}},
+        "camera": {"orthographic": 3, "keyframes": [{"frame": 0}, {"frame": 10, "orthographic": 5}]}})");
+    EXPECT_EQ(scene.cameraAt(0).height, 3);
+    EXPECT_NEAR(scene.cameraAt(5).height, 4, 1e-6);
+    const Scene lens = load(R"({"format": 1, "models": {"one": {"file": "triangle.gltf"}},
+        "camera": {"fovy": 30, "keyframes": [{"frame": 0}, {"frame": 10, "position": [0, 0, 9]}]}})");
+    EXPECT_NEAR(glm::degrees(lens.cameraAt(10).fovy), 30, 1e-4);
+    EXPECT_EQ(lens.cameraAt(10).height, 0);
+}
+
 // If this fails, switches of level hit another instance. Names are those of scene-file instances or of the model's nodes.
 TEST(SceneFile, FindsInstancesOfTheSchedule) {
     const Scene scene = load(R"({"format": 1, "models": {"m": {"file": "triangle.gltf"}},

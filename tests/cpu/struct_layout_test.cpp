@@ -85,8 +85,8 @@ TEST_F(StructLayout, WorldAndItsPartsAreWhatTheCompilerMadeOfThem) {
 
     const Path header = SharedStruct<World>::header;
     const auto instance = structFields("InstanceRecord", header, shaderFolders(), sizeof(InstanceRecord));
-    EXPECT_EQ(named(instance, "toObject").offset, offsetof(InstanceRecord, toObject));
-    EXPECT_EQ(named(instance, "toObject").count, 3u);
+    EXPECT_EQ(named(instance, "toWorld").offset, offsetof(InstanceRecord, toWorld));
+    EXPECT_EQ(named(instance, "toWorld").count, 3u);
     EXPECT_EQ(named(instance, "flags").offset, offsetof(InstanceRecord, flags));
     const auto material = structFields("MaterialRecord", header, shaderFolders(), sizeof(MaterialRecord));
     EXPECT_EQ(named(material, "normalMap").offset, offsetof(MaterialRecord, normalMap));

@@ -75,7 +75,7 @@ public:
             }
             boxes.push_back(box);
             const Bvh& bvh = meshes_[p.mesh][0].bvh;
-            instances.push_back(traceInstance(p.mesh, bvh.gridBase, bvh.gridScale, p.toWorld));
+            instances.push_back(traceInstance(p.mesh, {bvh.gridBase, bvh.gridScale}, p.toWorld));
             levels.push_back(p.level);
             toObject_.push_back(glm::inverse(glm::dmat4(p.toWorld)));
         }

@@ -13,6 +13,7 @@ struct Case {
     std::string scene;
     int candidates;  ///< path trees a pixel: as many as bring the half-width below 1 %
     int runs;
+    const char* graph = "restir_pt.json";
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
@@ -33,7 +34,7 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
                          .reference = graph("path_tracer.json", "no accumulation", {}),
                          .referenceSamples = 2048});
     const EnsembleResult reuse =
-        judge.judge({.graph = sourceFolder / "graphs/restir_pt.json", .variant = {}, .set = {{"initial.candidates", Json(c.candidates)}, {"spatial.radius", Json(5)}}, .port = {}, .where = {}});
+        judge.judge({.graph = sourceFolder / "graphs" / c.graph, .variant = {}, .set = {{"initial.candidates", Json(c.candidates)}, {"spatial.radius", Json(5)}}, .port = {}, .where = {}});
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
     EXPECT_LE(reuse.halfWidth, 0.01);
     std::printf("%s: %+.2f %% +- %.2f %%\n", c.scene.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
@@ -58,8 +59,9 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96}, Case{"ensemble_glass", 4, 96},
                                          Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64}, Case{"ensemble_moving", 8, 960},
-                                         Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96}),
-                         [](const auto& test) { return test.param.scene; });
+                                         Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96}, Case{"ensemble_orthographic", 2, 64},
+                                         Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
+                         [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Unit vectors and colours in 32 bits; framework/scene/pack.h is the same in C++.
+// Unit vectors in 32 bits and colours in 64; framework/scene/pack.h is the same in C++.
 //
 // Unit vector: octahedral map (Meyer et al. 2010; Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit
 // Vectors), x in bits 0-15, y in bits 16-31, each a two's complement integer round(32767 * coordinate).
 // Tangent: the same with bit 0 replaced by the sign: 1 means bitangent = -cross(normal, tangent). The word 0 means "no tangent"; the one
 // direction that would give it, +Z with sign 0, is stored as 0x00010000.
-// Colour: 8-bit unorm, red in bits 0-7.
+// Colour: half floats, red in bits 0-15 of the first word, blue in those of the second.
 #include "base/math.glsl"
 
 const uint TANGENT_NONE = 0u;
@@ -51,4 +51,5 @@ uint packTangent(vec4 tangent) {
 /// xyz: tangent, w: sign of the bitangent cross(normal, tangent).
 vec4 unpackTangent(uint bits) { return vec4(unpackNormal(bits & ~1u), (bits & 1u) != 0u ? -1.0 : 1.0); }
 
-vec4 unpackColor(uint bits) { return vec4(uvec4(bits, bits >> 8, bits >> 16, bits >> 24) & 255u) * (1.0 / 255.0); }
+uvec2 packColor(vec4 color) { return uvec2(packHalf2x16(color.rg), packHalf2x16(color.ba)); }
+vec4 unpackColor(uvec2 bits) { return vec4(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y)); }

@@ -39,5 +39,6 @@ void main() {
     EXPECT_EQ(packTangent(vec4(0, 0, 1, -1)), 1u);
     EXPECT_EQ(packTangent(vec4(1, 0, 0, 1)), 0x00007ffeu);
     EXPECT_EQ(packTangent(vec4(1, 0, 0, -1)), 0x00007fffu);
-    EXPECT_NEAR(unpackColor(0x80ff0033u), vec4(0.2, 0.0, 1.0, 128.0 / 255.0), 1e-6);
+    EXPECT_EQ(unpackColor(uvec2(0x00003c00u, 0x38002e66u)), vec4(1.0, 0.0, 0.0999755859375, 0.5));
+    EXPECT_EQ(packColor(vec4(0.001, 131.0 / 65535.0, 7.0, 1.0)), uvec2(0x18181419u, 0x3c004700u));
 }

@@ -21,6 +21,7 @@ struct LightSample {
     vec3 radianceOverPdf;  // to be multiplied by f |cos|; 0 where the light is dark
     float pdf;             // per steradian, the light's choice included; 0 for lights without extent
     float cosine;          // at the light: its area density is pdf * cosine / distance^2; 1 where it has no surface
+    float gap;             // before the light at which shadow rays end, so that rounding doesn't make it shade itself
     bool delta;            // no BSDF sample can find it
 };
 
@@ -45,13 +46,17 @@ float punctualFalloff(World w, uint light, vec3 direction, float distanceSquared
     return falloff;
 }
 
+// Of where a segment ends and where a ray along it meets something there, relative to its length and at right angles to what is met: the terms
+// of rounding.glsl with s as long as the segment, for triangles of any but the sharpest angles.
+const float SEGMENT_ROUNDING = 32.0 * ROUNDING;
+
 void lightTriangle(World w, vec3 position, inout LightSample s) {
     uint instance = w.lights.at[s.point.light].instance, primitive = w.lights.at[s.point.light].primitive;
     uvec3 corners = cornersOf(w, primitive);
     uint material = w.primitives.at[primitive].material;
     Placement placement = placementOf(w, instance);
     TrianglePoint point = pointOn(w, corners, s.point.uv);
-    vec3 twiceArea = placeNormal(placement, cross(point.edge1, point.edge2)) * placementSign(placement);
+    vec3 twiceArea = placeNormal(placement, cross(point.edge1, point.edge2)) * placement.winding;
     vec3 way = placePoint(placement, point.position) - position;
     float distanceSquared = dot(way, way), area = 0.5 * length(twiceArea);
     s.distance = sqrt(distanceSquared);
@@ -61,12 +66,14 @@ void lightTriangle(World w, vec3 position, inout LightSample s) {
     s.cosine = abs(facing);
     if (s.cosine <= 1e-6 || !emitsTo(w, material, facing > 0.0)) return;
     s.pdf = w.lights.at[s.point.light].pmf * distanceSquared / (area * s.cosine);
+    float rounding = planeRounding(w, instance, placement, point, position + way, twiceArea / (2.0 * area), 2.0 * area);
+    s.gap = (2.0 * rounding + SEGMENT_ROUNDING * s.distance) / s.cosine;
     s.radianceOverPdf = emissionOn(w, material, corners, s.point.uv) / s.pdf;
 }
 
 /// How the stored light point looks from `position`. Deterministic; visibility is the caller's.
 LightSample lightSampleAt(World w, LightPoint point, vec3 position) {
-    LightSample s = LightSample(point, vec3(0.0, 1.0, 0.0), FAR, vec3(0.0), 0.0, 1.0, false);
+    LightSample s = LightSample(point, vec3(0.0, 1.0, 0.0), FAR, vec3(0.0), 0.0, 1.0, 0.0, false);
     if (point.light == NONE) return s;
     uint type = w.lights.at[point.light].type;
     if (type == LIGHT_TRIANGLE) {
@@ -90,6 +97,7 @@ LightSample lightSampleAt(World w, LightPoint point, vec3 position) {
     }
     vec3 way = w.lights.at[point.light].position - position;
     s.distance = length(way);
+    s.gap = SEGMENT_ROUNDING * (s.distance + maxComponent(abs(w.lights.at[point.light].position)));
     s.direction = safeNormalize(way, vec3(0.0, 1.0, 0.0));
     s.radianceOverPdf = intensity * punctualFalloff(w, point.light, s.direction, dot(way, way));
     return s;
@@ -117,7 +125,7 @@ float lightPdf(World w, uint instance, uint primitive, vec3 direction, float dis
 Ray shadowRay(World w, Surface s, LightSample l) {
     Ray ray;
     if (l.distance >= FAR) ray = spawnRay(w, s, l.direction);
-    else ray = rayBetween(w, s, s.position + l.distance * l.direction);
+    else ray = rayBetween(s, s.position + l.distance * l.direction, l.gap);
     ray.panes = uint(l.delta);
     return ray;
 }

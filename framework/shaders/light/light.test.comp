@@ -20,7 +20,7 @@ void write() {
     uint down = packNormal(vec3(0, 0, -1));
     for (uint i = 0u; i < 7u; ++i) {
         TestPositions(testArray(TEST_POSITIONS)).at[i] = vec4(positions[i], 0);
-        TestVertices(testArray(TEST_VERTICES)).at[i] = VertexRecord(down, 0u, 0.5 * positions[i].xy + 0.5, vec2(0), ~0u, 0u);
+        TestVertices(testArray(TEST_VERTICES)).at[i] = VertexRecord(down, 0u, 0.5 * positions[i].xy + 0.5, vec2(0), packColor(vec4(1)));
     }
     TestPrimitives(testArray(TEST_PRIMITIVES)).at[0] = PrimitiveRecord(0u, 1u, 2u, 0u);
     TestPrimitives(testArray(TEST_PRIMITIVES)).at[1] = PrimitiveRecord(0u, 2u, 3u, 0u);

@@ -19,10 +19,12 @@ InstanceView instanceView(World w, uint instance) {
     return InstanceView(max(away - radius, 0.0), radius, scale);
 }
 
-/// Error of a level on the screen, pixels, where it would be largest: at the point of the sphere nearest to the camera.
+/// Error of a level on the screen, pixels, where it would be largest: at the point of the sphere nearest to the camera. To an
+/// orthographic camera it is as large anywhere.
 float screenError(World w, uint instance, InstanceView view, uint level) {
     float error = w.meshLevels.at[w.instances.at[instance].mesh * LEVELS + level].error * view.scale;
-    return error > 0.0 ? error / (max(view.distance, 1e-20) * w.camera.pixelAngle) : 0.0;
+    float pixel = w.camera.orthographic != 0u ? w.camera.pixelAngle : max(view.distance, 1e-20) * w.camera.pixelAngle;
+    return error > 0.0 ? error / pixel : 0.0;
 }
 
 /// The coarsest level whose error stays within `limit` pixels. A level coarser than last frame's has to stay within (1 - hysteresis) of it.

@@ -48,6 +48,12 @@ void main() {
     EXPECT_NEAR(screenError(w, FAR_ONE, far, 3u), 3.2, 1e-5);
     EXPECT_NEAR(screenError(w, FLATTENED, instanceView(w, FLATTENED), 3u), 3.2, 1e-5);
 
+    // To an orthographic camera an error is as many pixels wherever it is.
+    World o = w;
+    o.camera.orthographic = 1u;
+    EXPECT_NEAR(screenError(o, FAR_ONE, far, 1u), 2.0, 1e-5);
+    EXPECT_NEAR(screenError(o, AROUND, instanceView(o, AROUND), 1u), 1.0, 1e-5);
+
     // The coarsest level within the limit.
     EXPECT_EQ(levelByError(w, FAR_ONE, 0.1, false, 0u, 0.0), 0u);
     EXPECT_EQ(levelByError(w, FAR_ONE, 0.5, false, 0u, 0.0), 1u);

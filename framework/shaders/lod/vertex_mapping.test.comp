@@ -22,7 +22,7 @@ uint vertexCount = 0u, primitiveCount = 0u, nodeCount = 0u, listCount = 0u;
 
 uint addVertex(vec3 position, vec2 uv) {
     TestPositions(testArray(TEST_POSITIONS)).at[vertexCount] = vec4(position, 0);
-    TestVertices(testArray(TEST_VERTICES)).at[vertexCount] = VertexRecord(0u, 0u, uv, vec2(0), ~0u, 0u);
+    TestVertices(testArray(TEST_VERTICES)).at[vertexCount] = VertexRecord(0u, 0u, uv, vec2(0), uvec2(0));
     return vertexCount++;
 }
 

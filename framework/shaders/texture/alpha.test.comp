@@ -11,7 +11,7 @@ void write() {
     for (uint v = 0u; v < 3u; ++v) {
         vec2 uv = vec2(v == 1u ? 1.0 : 0.0, v == 2u ? 1.0 : 0.0);
         TestPositions(testArray(TEST_POSITIONS)).at[v] = vec4(vec3(uv, 0.0), 0);
-        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(0u, 0u, uv, uv.yx, v == 1u ? 0x00ffffffu : 0xff00ff00u, 0u);
+        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(0u, 0u, uv, uv.yx, packColor(v == 1u ? vec4(1, 1, 1, 0) : vec4(0, 1, 0, 1)));
     }
     // Alpha 0 on the left half, 1 on the right.
     TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 2u, 1u, 1u, TEXTURE_NEAREST, uvec2(0));

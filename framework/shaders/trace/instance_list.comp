@@ -28,6 +28,7 @@ void main() {
     if (i >= w.instanceCount) return;
     const uint facingCullDisable = 1u;
     InstanceRecord instance = w.instances.at[i];
-    push.instances.at[i] = QueryInstance(instance.toWorld, 0xff000000u, facingCullDisable << 24,
-                                         Addresses(w.bottomLevels).at[instance.mesh * LEVELS + w.levels.at[i]]);
+    uint64_t shown = 0ul;
+    if ((instance.flags & INSTANCE_HIDDEN) == 0u) shown = Addresses(w.bottomLevels).at[instance.mesh * LEVELS + w.levels.at[i]];
+    push.instances.at[i] = QueryInstance(instance.toWorld, 0xff000000u, facingCullDisable << 24, shown);
 }

@@ -75,7 +75,7 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             origin = pointToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.origin);
             direction = directionToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.direction);
             slope = inverseOf(direction);
-            offset = -origin * slope;
+            offset = (record.boxes - origin) * slope;
             stack[size++] = REF_BACK;
             current = rootOf(w, instance, record.mesh);
         }

@@ -77,7 +77,7 @@ GridRay enterInstance(uint64_t record, vec3 origin, vec3 direction) {
     vec4 x = vec4(numbersOf(record, 0u), numberOf(record, 3u));
     vec4 y = vec4(numbersOf(record, 4u), numberOf(record, 7u));
     vec4 z = vec4(numbersOf(record, 8u), numberOf(record, 11u));
-    return gridRay(pointToGrid(x, y, z, origin), directionToGrid(x, y, z, direction), vec3(0.0), vec3(1.0));
+    return gridRay(pointToGrid(x, y, z, origin), directionToGrid(x, y, z, direction), numbersOf(record, 13u), vec3(1.0));
 }
 
 Hit traceRay(World w, Ray ray, bool anyHit) {

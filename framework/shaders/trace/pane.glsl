@@ -18,7 +18,8 @@ bool endsLight(World w, Ray ray, Hit hit, inout Passage passage) {
     if (SCENE_PANES == 0 || ray.panes == 0u) return true;
     if ((w.materials.at[w.primitives.at[hit.primitive].material].flags & MATERIAL_PANE) == 0u) return true;
     Surface s = surfaceAt(w, hit, ray.direction);
-    bool again = abs(hit.t - passage.last) * length(ray.direction) <= positionError(w, s.position);
+    float apart = 4.0 * s.rounding / max(abs(dot(s.normal, s.view)), 0.01);
+    bool again = abs(hit.t - passage.last) * length(ray.direction) <= apart;
     if (!again) passage.left *= straightOn(bsdfAt(w, s), s.view);
     passage.last = hit.t;
     return passage.left == vec3(0.0);

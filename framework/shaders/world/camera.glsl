@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A thin-lens camera: film to ray and back.
+// A thin-lens camera, or an orthographic one: film to ray and back.
 #include "base/math.glsl"
 #include "base/sampling.glsl"
 #include "trace/ray.h"
@@ -19,9 +19,11 @@ vec2 filmOf(ivec2 pixel, vec2 place, uvec2 size) {
     return film;
 }
 
-/// film in [0,1]^2, x to the right and y down. All rays of one film point meet in the plane of focus. Unit direction.
+/// film in [0,1]^2, x to the right and y down. All rays of one film point meet in the plane of focus. Unit direction. Orthographic: rays start in
+/// the plane of the camera, side by side.
 Ray cameraRay(World w, vec2 film, vec2 lens) {
-    vec3 direction = w.camera.forward + (2.0 * film.x - 1.0) * w.camera.right + (1.0 - 2.0 * film.y) * w.camera.up;
+    vec3 place = (2.0 * film.x - 1.0) * w.camera.right + (1.0 - 2.0 * film.y) * w.camera.up, direction = w.camera.forward + place;
+    if (w.camera.orthographic != 0u) return Ray(w.camera.position + place, 0.0, w.camera.forward, FAR, 0u);
     vec3 offset = lensOffset(w, lens);
     return Ray(w.camera.position + offset, 0.0, normalize(direction - offset / w.camera.focus), FAR, 0u);
 }
@@ -33,8 +35,15 @@ vec3 cameraProject(World w, vec3 point, vec2 lens) {
     vec3 d = point - w.camera.position - offset;
     float depth = dot(d, w.camera.forward);
     if (!(depth > 0.0)) return vec3(-1.0, -1.0, depth);
-    vec3 onPlane = d / depth + offset / w.camera.focus;
+    vec3 onPlane = w.camera.orthographic != 0u ? d : d / depth + offset / w.camera.focus;
     vec2 image = vec2(dot(onPlane, w.camera.right) / dot(w.camera.right, w.camera.right),
                       dot(onPlane, w.camera.up) / dot(w.camera.up, w.camera.up));
     return vec3(0.5 + 0.5 * image.x, 0.5 - 0.5 * image.y, depth);
+}
+
+/// The same for what is infinitely far in a direction that `film` saw it in. An orthographic camera sees one direction all over its film, so there it
+/// stays at its place.
+vec3 cameraProjectSky(World w, vec3 direction, vec2 film, vec2 lens) {
+    if (w.camera.orthographic != 0u) return vec3(film, 1.0);
+    return cameraProject(w, w.camera.position + lensOffset(w, lens) + direction, lens);
 }

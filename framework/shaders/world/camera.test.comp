@@ -33,6 +33,21 @@ void main() {
     EXPECT_NEAR(cameraRay(w, vec2(0.0, 0.0), vec2(0.5)).direction, normalize(vec3(1, 1, -2)), 1e-6);  // top left
     EXPECT_NEAR(cameraRay(w, vec2(1.0, 0.75), vec2(0.5)).direction, normalize(vec3(1, -0.5, 2)), 1e-6);
     EXPECT_NEAR(cameraProject(w, vec3(3, 3, 3), vec2(0.5)), vec3(0.5, 0.25, 2.0), 1e-6);
+    // Orthographic: rays side by side, and a point's place on the film doesn't depend on its depth.
+    World o = w;
+    o.camera.orthographic = 1u;
+    EXPECT_EQ(cameraRay(o, vec2(0.5), vec2(0.9)).origin, vec3(1, 2, 3));
+    EXPECT_EQ(cameraRay(o, vec2(0.0, 0.75), vec2(0.9)).origin, vec3(1, 1.5, 1));
+    EXPECT_EQ(cameraRay(o, vec2(0.0, 0.75), vec2(0.9)).direction, vec3(1, 0, 0));
+    for (uint i = 0u; i < 64u; ++i) {
+        vec2 at = random2(uvec2(i, 2), 0u, 0u);
+        float depth = 0.01 + 100.0 * random1(uvec2(i, 2), 0u, 1u);
+        Ray side = cameraRay(o, at, vec2(0.1));
+        EXPECT_NEAR(cameraProject(o, side.origin + depth * side.direction, vec2(0.7)), vec3(at, depth), 1e-6 * max(1.0, depth));
+        EXPECT_TRUE(cameraProject(o, side.origin - depth * side.direction, vec2(0.7)).z < 0.0);
+        EXPECT_EQ(cameraProjectSky(o, side.direction, at, vec2(0.7)).xy, at);
+        EXPECT_NEAR(cameraProjectSky(w, cameraRay(w, at, vec2(0.1)).direction, vec2(0), vec2(0.1)).xy, at, 1e-6);
+    }
     // Uniform over the lens: the mean square distance from its centre is half the square of its radius.
     w.camera.aperture = 0.25;
     float sum = 0.0;

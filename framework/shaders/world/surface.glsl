@@ -5,14 +5,16 @@
 #include "texture/material_map.glsl"
 #include "trace/ray.h"
 #include "world/primary_hit.h"
+#include "world/rounding.glsl"
 #include "world/scene_facts.glsl"
 #include "world/triangle.glsl"
 #include "world/world.h"
 
 struct Surface {
-    vec3 position;       // interpolated from the corners: origin + t * direction would carry the ray's length into the error
+    vec3 position;       // interpolated from the corners: origin + t * direction would carry the error of t off the triangle
     vec3 normal;         // of the triangle, unit, towards the viewer
     float twiceArea;     // of the triangle, world space
+    float rounding;      // of the position, and of where rays meet the triangle, along its normal (world/rounding.glsl)
     vec3 shadingNormal;  // unit, towards the viewer; its mirror direction lies above the triangle
     vec2 uv;             // set 0
     vec2 barycentrics;
@@ -55,13 +57,13 @@ vec3 mapNormal(World w, Surface s, uvec3 corners, mat3 frame) {
 /// A camera hit as a ray gave it, but for its distance.
 Hit hitOf(PrimaryHit h) { return Hit(0.0, h.barycentrics, h.primitive, h.instance); }
 
-/// `w` is the World the ray was traced in; rayDirection may have any length.
+/// `w` is the World the ray was traced in; rayDirection may have any length. All passes that are given the hit find the same position.
 Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     uvec3 corners = cornersOf(w, hit.primitive);
     Placement placement = placementOf(w, hit.instance);
     TrianglePoint point = pointOn(w, corners, hit.barycentrics);
     vec3 view = -normalize(rayDirection);
-    float mirror = placementSign(placement);
+    float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
 
     Surface s;
     s.view = view;
@@ -72,10 +74,11 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     s.instance = hit.instance;
     s.material = w.primitives.at[hit.primitive].material;
 
-    vec3 perpendicular = placeNormal(placement, cross(point.edge1, point.edge2)) * mirror, front = safeNormalize(perpendicular, view);
+    vec3 perpendicular = placeNormal(placement, cross(point.edge1, point.edge2)) * placement.winding, front = safeNormalize(perpendicular, view);
     s.twiceArea = length(perpendicular);
     s.frontFace = dot(front, view) >= 0.0;
     s.normal = s.frontFace ? front : -front;
+    s.rounding = planeRounding(w, hit.instance, placement, point, s.position, s.normal, s.twiceArea);
 
     vec3 weights = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics), smoothNormal = vec3(0.0);
     for (int i = 0; i < 3; ++i) smoothNormal += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
@@ -90,25 +93,36 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     return s;
 }
 
-/// How far positions and traversal may be off, world units. Both round to 2^-24 of the largest coordinate that enters (the point's, the
-/// instance's translation, the mesh's extent) in a handful of operations; the bound below is ten such roundings.
+/// The same where the ray is at hand. Barycentrics in single precision place a point to a ten-millionth of the triangle: on ground of 200 km, to a
+/// centimetre. A ray that is shorter than the triangle knows better where along the triangle it ended.
+Surface surfaceAt(World w, Hit hit, Ray ray) {
+    Surface s = surfaceAt(w, hit, ray.direction);
+    vec3 way = hit.t * ray.direction, met = ray.origin + way;
+    met += dot(s.normal, s.position - met) * s.normal;
+    bool close = square(maxComponent(abs(ray.origin))) + dot(way, way) < s.twiceArea;
+    s.position = close ? met : s.position;
+    return s;
+}
+
+/// The same where it isn't known which surface holds the position: ten roundings of the largest coordinate that may have entered it.
 float positionError(World w, vec3 position) {
-    return 6e-7 * (maxComponent(abs(position)) + maxComponent(abs(w.sceneCenter)) + w.sceneRadius);
+    return 10.0 * ROUNDING * (maxComponent(abs(position)) + maxComponent(abs(w.sceneCenter)) + w.sceneRadius);
 }
 
 /// Where a ray that leaves the surface towards `direction` starts: off the triangle by the error bound, to that side.
-vec3 spawnOrigin(World w, Surface s, vec3 direction) {
-    float offset = positionError(w, s.position);
-    return s.position + (dot(s.normal, direction) < 0.0 ? -offset : offset) * s.normal;
+vec3 spawnOrigin(Surface s, vec3 direction) { return s.position + (dot(s.normal, direction) < 0.0 ? -s.rounding : s.rounding) * s.normal; }
+
+Ray spawnRay(World w, Surface s, vec3 direction) { return Ray(spawnOrigin(s, direction), 0.0, direction, FAR, 0u); }
+
+/// The segment from the surface to a point, for occluded(). Its direction is not unit; it ends `gap` (world units) short of the target, at most
+/// half way.
+Ray rayBetween(Surface s, vec3 target, float gap) {
+    vec3 origin = spawnOrigin(s, target - s.position);
+    vec3 direction = target - origin;
+    return Ray(origin, 0.0, direction, 1.0 - clamp(gap * inversesqrt(max(dot(direction, direction), 1e-30)), ROUNDING, 0.5), 0u);
 }
 
-Ray spawnRay(World w, Surface s, vec3 direction) { return Ray(spawnOrigin(w, s, direction), 0.0, direction, FAR, 0u); }
-
-/// The segment from the surface to a point of another one, for occluded(). Its direction is not unit; it ends short of the target by four
-/// error bounds, at least 1e-5 of its length and at most half of it.
+/// The same to a point of an unknown surface: short by four error bounds, and at least 1e-5 of the way.
 Ray rayBetween(World w, Surface s, vec3 target) {
-    vec3 origin = spawnOrigin(w, s, target - s.position);
-    vec3 direction = target - origin;
-    float gap = 4.0 * positionError(w, target) * inversesqrt(max(dot(direction, direction), 1e-30));
-    return Ray(origin, 0.0, direction, 1.0 - clamp(gap, 1e-5, 0.5), 0u);
+    return rayBetween(s, target, max(4.0 * positionError(w, target), 1e-5 * distance(target, s.position)));
 }

@@ -21,7 +21,7 @@ void write() {
         vec2 uv = vec2(v % 3u == 1u ? 1.0 : 0.0, v % 3u == 2u ? 1.0 : 0.0);
         vec3 n = v < 3u ? normalize(vec3(uv - 0.333, 2.0)) : v < 6u ? vec3(0, 0, 1) : vec3(0, 0, -1);
         TestPositions(testArray(TEST_POSITIONS)).at[v] = vec4(vec3(uv, 0.0), 0);
-        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(n), packTangent(vec4(1, 0, 0, 1)), uv, vec2(0), ~0u, 0u);
+        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(n), packTangent(vec4(1, 0, 0, 1)), uv, vec2(0), packColor(vec4(1)));
     }
     for (uint m = 0u; m < 3u; ++m) {
         MaterialRecord r = testMaterial();

@@ -13,6 +13,7 @@ uvec3 cornersOf(World w, uint primitive) {
 /// A point of a triangle, in object space, with the triangle's edges.
 struct TrianglePoint {
     vec3 position;
+    vec3 corner;  // the first
     vec3 edge1, edge2;
 };
 
@@ -20,7 +21,7 @@ TrianglePoint pointOn(World w, uvec3 corners, vec2 barycentrics) {
     vec3 a = w.positions.at[corners.x].xyz;
     vec3 edge1 = w.positions.at[corners.y].xyz - a, edge2 = w.positions.at[corners.z].xyz - a;
     precise vec3 position = a + barycentrics.x * edge1 + barycentrics.y * edge2;  // kernels that make a path and that shift it find one point
-    return TrianglePoint(position, edge1, edge2);
+    return TrianglePoint(position, a, edge1, edge2);
 }
 
 /// Texture coordinates of set 0 or 1.
@@ -37,24 +38,27 @@ vec2 uvOn(World w, uvec3 corners, vec2 barycentrics, uint set) {
 struct Placement {
     vec3 row0, row1, row2;
     vec3 translation;
+    float winding;  // -1 where triangles are turned inside out on their way into the world: glTF then turns the winding round, so that fronts stay fronts
 };
 
 Placement placementOf(World w, uint instance) {
     vec4 x = w.instances.at[instance].toWorld[0], y = w.instances.at[instance].toWorld[1], z = w.instances.at[instance].toWorld[2];
-    return Placement(x.xyz, y.xyz, z.xyz, vec3(x.w, y.w, z.w));
+    float winding = (w.instances.at[instance].flags & INSTANCE_MIRRORED) != 0u ? -1.0 : 1.0;
+    return Placement(x.xyz, y.xyz, z.xyz, vec3(x.w, y.w, z.w), winding);
 }
 
 vec3 placeVector(Placement p, vec3 v) { return vec3(dot(p.row0, v), dot(p.row1, v), dot(p.row2, v)); }
 vec3 placePoint(Placement p, vec3 v) { return placeVector(p, v) + p.translation; }
 
 /// A normal (or a cross product of edges) taken to world space by the cofactor matrix, which is the inverse transpose times the
-/// determinant and needs no second matrix. cross(edge1, edge2) becomes the cross product of the transformed edges.
+/// determinant and needs no second matrix. cross(edge1, edge2) becomes the cross product of the transformed edges. Where the transform mirrors,
+/// a normal comes out the other way round.
 vec3 placeNormal(Placement p, vec3 n) {
     return vec3(dot(cross(p.row1, p.row2), n), dot(cross(p.row2, p.row0), n), dot(cross(p.row0, p.row1), n));
 }
 
-/// -1 where the transform mirrors. glTF then turns the winding round, so that front faces stay front faces.
-float placementSign(Placement p) { return dot(p.row0, cross(p.row1, p.row2)) < 0.0 ? -1.0 : 1.0; }
+/// How much the transform enlarges volumes; negative where it mirrors.
+float placementDeterminant(Placement p) { return dot(p.row0, cross(p.row1, p.row2)); }
 
 /// World-space position of a point on a triangle of an instance. With last frame's World it is the previous position.
 vec3 positionOn(World w, uint instance, uint primitive, vec2 barycentrics) {

@@ -15,8 +15,7 @@ struct VertexRecord {
     uint normal;   // octahedral, snorm16 x 2
     uint tangent;  // the same with bit 0 replaced by the sign (1: bitangent = -cross(n, t)); 0: none (base/pack.glsl has the layouts)
     vec2 uv0, uv1;
-    uint color;    // unorm8 x 4, linear
-    uint pad;
+    uvec2 color;   // half floats, linear
 };
 
 // A triangle for shading, in BVH order (Hit.primitive indexes it). Vertex indices are global.
@@ -28,21 +27,22 @@ struct PrimitiveRecord {
 // Where an instance stands and what it shows. Rows of 3x4 matrices, point p maps to (dot(row0.xyz, p) + row0.w, ...).
 struct InstanceRecord {
     vec4 toWorld[3];
-    vec4 toObject[3];
+    vec4 rounding[3]; // with sizes |.| taken by element: |M^-1| |M| and |M^-1| |t| of toWorld's linear part and translation (world/rounding.glsl)
     uint mesh;
     uint firstLight;  // index of the light of its mesh's first emissive triangle, NONE when it has none
     uint flags;       // INSTANCE_*
     uint pad;
 };
-const uint INSTANCE_MIRRORED = 1u;  // the transform turns triangles inside out
+const uint INSTANCE_MIRRORED = 1u;  // the way from the file's vertices to the world turns triangles inside out
+const uint INSTANCE_HIDDEN = 2u;    // nothing is left of it
 
-// The same instance as traversal reads it: world space to the mesh's 16-bit box grid. With the grid's base in world space, b = (row0.w, row1.w,
-// row2.w), a point p maps to (dot(row0.xyz, p - b), ...): subtracted first, so that precision doesn't depend on how far from the origin
-// the instance is. 64 bytes, loaded by 8 lanes.
+// The same instance as traversal reads it: world space to grid steps of the mesh (scene/bvh.h, BvhGrid). With the origin that triangles are measured
+// from in world space, o = (row0.w, row1.w, row2.w), a point p maps to (dot(row0.xyz, p - o), ...): subtracted first, so that precision
+// doesn't depend on how far from the origin the instance is. 64 bytes, loaded by 8 lanes.
 struct TraceInstance {
     vec4 toGrid[3];
     uint mesh;
-    uint pad0, pad1, pad2;
+    vec3 boxes;  // base of the grid in steps from o: where boxes are measured from
 };
 
 // How a material reads a texture: uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z).
@@ -161,13 +161,13 @@ struct EnvironmentTexel {
 
 struct CameraRecord {
     vec3 position;
-    float aperture;   // lens radius
-    vec3 right;       // unit vectors times the half extent of the image plane at distance 1
-    float focus;      // distance of the plane in focus
+    float aperture;    // lens radius; 0 where the camera is orthographic
+    vec3 right;        // unit vectors times the half extent of the image plane: at distance 1, or at any where the camera is orthographic
+    float focus;       // distance of the plane in focus
     vec3 up;
-    float pixelAngle; // angle of one pixel at the image centre, radians
-    vec3 forward;     // unit
-    uint pad;
+    float pixelAngle;  // angle of one pixel at the image centre, radians; orthographic: its height, scene units
+    vec3 forward;      // unit
+    uint orthographic; // 1: all rays go along `forward`
 };
 
 #ifdef __cplusplus
