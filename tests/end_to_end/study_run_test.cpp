@@ -17,6 +17,7 @@ protected:
                              {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
                              {"size", {32, 18}},
                              {"seeds", 2},
+                             {"paired", true},  // what is told of two seeds is told of differences between techniques
                              {"reference", {{"graph", graph}, {"spp", 64}}},
                              {"techniques", {{"path tracing", {{"graph", graph}, {"vary", {{"trace.spp", {1, 8}}}}}}}},
                              {"metrics", {"mse", "relmse", "bias"}},
