@@ -12,6 +12,7 @@ const uint VERTICES = 8u;  // x_1 .. x_8; x_8 is an emitter
 void main() {
     uint id = gl_GlobalInvocationID.x;
     ConnectionCriteria c = ConnectionCriteria(0.2, 0.1);
+    const float least = 818.5 / 4096.0;  // of the step that 0.2 lies in
     // k against its definition: the least j whose pair is rough at both ends and far enough apart.
     float roughness[VERTICES + 1u], distance[VERTICES + 1u];
     for (uint j = 1u; j <= VERTICES; ++j) {
@@ -23,10 +24,11 @@ void main() {
     for (uint j = 2u; j < VERTICES; ++j) k = firstConnection(k, j, surfaceConnectable(c, roughness[j - 1u], roughness[j], distance[j]));
     k = firstConnection(k, VERTICES, emitterConnectable(c, roughness[VERTICES - 1u], distance[VERTICES]));
     for (uint j = VERTICES; j >= 2u; --j)
-        if (roughness[j - 1u] >= 0.2 && distance[j] >= 0.1 && (roughness[j] >= 0.2 || j == VERTICES)) expected = j;
+        if (roughness[j - 1u] >= least && distance[j] >= 0.1 && (roughness[j] >= least || j == VERTICES)) expected = j;
     EXPECT_EQ(k, expected);
     if (id > 0u) return;
     EXPECT_EQ(surfaceConnectable(c, 0.2, 0.2, 0.1), true);  // the thresholds themselves are in
+    EXPECT_EQ(surfaceConnectable(c, 0.19999999, 0.2, 0.1), true);  // however they were rounded
     EXPECT_EQ(surfaceConnectable(c, 0.19, 1.0, 5.0), false);
     EXPECT_EQ(surfaceConnectable(c, 1.0, 0.19, 5.0), false);
     EXPECT_EQ(surfaceConnectable(c, 1.0, 1.0, 0.09), false);
