@@ -383,13 +383,12 @@ TraceInstance traceInstance(std::uint32_t mesh, const BvhGrid& grid, const glm::
     return instance;
 }
 
-std::array<glm::vec4, 3> traceRounding(const glm::mat4& toWorld) {
+glm::vec4 traceRounding(const glm::mat4& toWorld) {
     const auto sizes = [](const glm::dmat3& m) { return glm::dmat3(glm::abs(m[0]), glm::abs(m[1]), glm::abs(m[2])); };
-    const glm::dmat3 linear(toWorld), inverse = sizes(glm::inverse(linear)), mixing = inverse * sizes(linear);
-    const glm::dvec3 moved = inverse * glm::abs(glm::dvec3(toWorld[3]));
-    std::array<glm::vec4, 3> rows;
-    for (int axis = 0; axis < 3; ++axis) rows[std::size_t(axis)] = glm::vec4(mixing[0][axis], mixing[1][axis], mixing[2][axis], moved[axis]);
-    return rows;
+    const glm::dmat3 linear(toWorld), inverse = sizes(glm::inverse(linear));
+    const glm::dvec3 sums = inverse * (sizes(linear) * glm::dvec3(1));
+    const double mixed = std::max({sums.x, sums.y, sums.z}) - 1;
+    return glm::vec4(inverse * glm::abs(glm::dvec3(toWorld[3])), mixed > 1e-6 ? mixed : 0);
 }
 
 Box boundsOf(const Bvh& bvh, const glm::mat4& transform) {

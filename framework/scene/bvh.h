@@ -88,8 +88,8 @@ LODESTIR_API BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> t
 
 /// How traversal enters an instance of meshes that are built on this grid.
 LODESTIR_API TraceInstance traceInstance(std::uint32_t mesh, const BvhGrid& grid, const glm::mat4& toWorld);
-/// What InstanceRecord.rounding holds, by rows.
-LODESTIR_API std::array<glm::vec4, 3> traceRounding(const glm::mat4& toWorld);
+/// What InstanceRecord.rounding holds: |M^-1| |t|, and the largest sum of a row of |M^-1| |M| - 1, which is 0 where no axis is turned or sheared.
+LODESTIR_API glm::vec4 traceRounding(const glm::mat4& toWorld);
 /// Bounds of the BVH's content after a transform: of its upper boxes' corners, tighter than those of one box.
 LODESTIR_API Box boundsOf(const Bvh& bvh, const glm::mat4& transform);
 /// Builds the hierarchy over boxes; leaves are instance references (bvh_ref::instance | box). Triangles stay empty; order = boxes in

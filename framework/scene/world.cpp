@@ -218,7 +218,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
         boxes.push_back(transformed(geometry_->bounds[instance.mesh], toWorld));
         all.add(boxes.back());
         traced.push_back(traceInstance(instance.mesh, geometry_->grids[instance.mesh], toWorld));
-        std::ranges::copy(traceRounding(toWorld), record.rounding);
+        record.rounding = traceRounding(toWorld);
         const std::vector<glm::mat4> joints = jointMatrices(scene_, scene_.meshes[instance.mesh], pose.nodes);
         record.flags = glm::determinant(glm::mat3(joints.empty() ? toWorld : joints[0])) < 0 ? INSTANCE_MIRRORED : 0;
         records.push_back(record);

@@ -82,7 +82,7 @@ TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
 INSTANTIATE_TEST_SUITE_P(, Shifts,
                          testing::Values(Room{"ensemble_diffuse", 0.01}, Room{"ensemble_glossy", 0.01}, Room{"ensemble_layers", 0.015}, Room{"ensemble_glass", 0.015},
                                          Room{"ensemble_lights", 0.02}, Room{"ensemble_environment", 0.01}, Room{"ensemble_moving", 0.02},
-                                         Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03}),
+                                         Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03}, Room{"ensemble_orthographic", 0.01}),
                          [](const auto& room) { return std::string(room.param.scene); });
 
 /// Initial sampling, temporal and spatial reuse, each of them shaded: "first", "past" (temporal), "near" (spatial alone), "both".

@@ -58,9 +58,8 @@ MaterialRecord testMaterial() {
 
 /// The identity, or any rows.
 InstanceRecord testInstance(vec4 row0, vec4 row1, vec4 row2) {
-    vec4 rounding[3] = vec4[](vec4(3), vec4(3), vec4(3));
     uint flags = dot(row0.xyz, cross(row1.xyz, row2.xyz)) < 0.0 ? INSTANCE_MIRRORED : 0u;
-    return InstanceRecord(vec4[](row0, row1, row2), rounding, 0u, NONE, flags, 0u);
+    return InstanceRecord(vec4[](row0, row1, row2), vec4(3), 0u, NONE, flags, 0u);
 }
 
 LightRecord testLight(uint type, float pmf) {

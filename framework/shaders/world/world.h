@@ -27,7 +27,7 @@ struct PrimitiveRecord {
 // Where an instance stands and what it shows. Rows of 3x4 matrices, point p maps to (dot(row0.xyz, p) + row0.w, ...).
 struct InstanceRecord {
     vec4 toWorld[3];
-    vec4 rounding[3]; // with sizes |.| taken by element: |M^-1| |M| and |M^-1| |t| of toWorld's linear part and translation (world/rounding.glsl)
+    vec4 rounding;    // of its linear part M and translation t, sizes taken by element: |M^-1| |t|, and what |M^-1| |M| mixes (scene/bvh.h, traceRounding)
     uint mesh;
     uint firstLight;  // index of the light of its mesh's first emissive triangle, NONE when it has none
     uint flags;       // INSTANCE_*
