@@ -56,7 +56,7 @@ struct ImageLoader final : Pass {
     Out<Image>                   image{this, "image",
                                        "the file's colour, linear (PNG: decoded from sRGB); its opacity, or 1, in the fourth channel",
                                        Format::rgba32f};
-    Param<std::filesystem::path> file{this, "file", "OpenEXR, PNG or Radiance .hdr"};
+    Param<std::filesystem::path> file{this, "file", "OpenEXR, PNG, JPEG or Radiance .hdr"};
     Param<bool>                  resample{this, "resample", false,
                                           "stretch an image of another size than the frame (bilinear) instead of refusing it"};
     ImageLoader() { cadence = Cadence::onChange; }

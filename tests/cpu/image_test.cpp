@@ -471,8 +471,8 @@ TEST_F(Images, ForeignFilesAreNamed) {
         writeFile(folder / name, content);
         return refusal([&] { readImage(folder / name); }).substr((folder / name).string().size() + 2);
     };
-    EXPECT_EQ(tell("a.exr", "hello"), "is not an image that this program reads; known: OpenEXR (.exr), PNG (.png), Radiance (.hdr)");
-    EXPECT_EQ(tell("empty.png", ""), "is not an image that this program reads; known: OpenEXR (.exr), PNG (.png), Radiance (.hdr)");
+    EXPECT_EQ(tell("a.exr", "hello"), "is not an image that this program reads; known: OpenEXR (.exr), PNG (.png), JPEG (.jpg), Radiance (.hdr)");
+    EXPECT_EQ(tell("empty.png", ""), "is not an image that this program reads; known: OpenEXR (.exr), PNG (.png), JPEG (.jpg), Radiance (.hdr)");
     EXPECT_EQ(tell("p.hdr", "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n"),
               "is a git-lfs pointer, not the file itself; fetch with git lfs pull");
     EXPECT_EQ(refusal([&] { readImage(folder / "none.exr"); }),

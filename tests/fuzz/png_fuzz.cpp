@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Any bytes as a PNG file. Checksums are mended first: else nothing would ever get past them.
+// Any bytes as a PNG or JPEG file. Checksums are mended first: else nothing would ever get past them.
 #include "input_file.h"
 
+#include <framework/image/jpeg.h>
 #include <framework/image/png.h>
 #include <framework/scene/gltf_texture.h>
 
@@ -40,6 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     mendChecksums(bytes);
     const lodestir::Path file = folder.write("input.png", bytes);
     lodestir::fuzz::expectErrorOrResult([&] { lodestir::readPng(file); });
+    lodestir::fuzz::expectErrorOrResult([&] { lodestir::readJpeg(file); });
     // Textures take their own way to the same decoder, and JPEG with it.
     lodestir::fuzz::expectErrorOrResult([&] {
         lodestir::Texture texture;
