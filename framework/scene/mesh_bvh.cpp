@@ -5,17 +5,6 @@
 
 namespace lodestir {
 
-Box boundsOf(const Mesh& mesh) {
-    Box box;
-    for (const MeshLevel& level : mesh.levels) box.add(boundsOf(level.positions));
-    return box;
-}
-
-glm::dvec3 extentOf(const Mesh& mesh) {
-    const Box box = boundsOf(mesh);
-    return box.isEmpty() ? glm::dvec3(0) : glm::dvec3(box.high) - glm::dvec3(box.low);
-}
-
 Bvh meshBvh(const Scene& scene, const Mesh& mesh, std::size_t level) {
     const MeshLevel& shape = mesh.levels[level];
     const bool panes = lightsShineThroughPanes(scene);

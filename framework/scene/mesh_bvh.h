@@ -2,14 +2,11 @@
 // The BVH of a mesh level, and with it the order in which its triangles lie on the GPU.
 #pragma once
 #include <framework/scene/bvh.h>
+#include <framework/scene/mesh_bounds.h>
 #include <framework/scene/scene.h>
 
 namespace lodestir {
 
-/// Box over all levels, object space.
-LODESTIR_API Box boundsOf(const Mesh& mesh);
-/// Its sides; 0 without vertices.
-glm::dvec3 extentOf(const Mesh& mesh);
 /// From the cache on disk where it was built before. World.primitives holds the triangles in Bvh::order, level after level, mesh after mesh.
 LODESTIR_API Bvh meshBvh(const Scene& scene, const Mesh& mesh, std::size_t level);
 
