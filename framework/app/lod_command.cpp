@@ -125,7 +125,7 @@ void addLod(CLI::App& app, std::function<int()>& run) {
     command.option("--rays", arguments->rays, "accepted everywhere; not used here");
     command.footer(
         "Error: how far a level is from the finest one, both ways, in units of the mesh (sampled). Normals, UVs and colours count\n"
-        "as lengths: of the diagonal of the mesh, a 32nd for a difference of 1 between colours, a 512th for one of 1 between\n"
+        "as lengths: of the diagonal of the mesh, a 32nd for a difference of 1 between colours, a 3000th for one of 1 between\n"
         "normals. Coverage: share of the screen.");
     command.does(run, [arguments] { return buildLevels(*arguments); });
 }

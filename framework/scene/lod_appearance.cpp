@@ -10,7 +10,7 @@
 namespace lodestir {
 namespace {
 
-constexpr double colorShare = 1.0 / 32, frameShare = 1.0 / 512;  ///< of the diagonal, see the header
+constexpr double colorShare = 1.0 / 32, frameShare = 1.0 / 3000;  ///< of the diagonal, see the header
 
 template <class V> bool isFinite(const V& v) {
     for (int i = 0; i < V::length(); ++i)

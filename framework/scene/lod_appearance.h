@@ -11,7 +11,7 @@
 namespace lodestir {
 
 /// Attributes of a level's vertices, each scaled to a length in object units. Of the diagonal of the level's bounds, a 32nd stands for a
-/// difference of 1 between colours (black and white) or alphas, a 512th for one of 1 between unit normals or tangents (60 degrees); a unit of
+/// difference of 1 between colours (black and white) or alphas, a 3000th for one of 1 between unit normals or tangents (60 degrees); a unit of
 /// UVs is as long as it is on the surface on average. So what differs by a tenth of the range of colours over an object that is 320 pixels
 /// across is a pixel off.
 class LODESTIR_API Appearance {

@@ -191,7 +191,7 @@ TEST(Deformation, GeometryFollowsThePose) {
             const PrimitiveRecord& corners = geometry.primitives[t];
             const glm::vec3 v0 = soup.positions[corners.v0] + weight * target.positions[corners.v0];
             const glm::vec3 v1 = soup.positions[corners.v1] + weight * target.positions[corners.v1];
-            expectNear(grid.base + grid.scale * geometry.triangles[t].v0, v0, 1e-4f);
+            expectNear(grid.origin() + grid.scale * geometry.triangles[t].v0, v0, 1e-4f);
             expectNear(grid.scale * geometry.triangles[t].e1, v1 - v0, 1e-4f);
         }
         std::size_t leaves = 0;
@@ -203,7 +203,8 @@ TEST(Deformation, GeometryFollowsThePose) {
                 leaves += count;
                 for (std::uint32_t t = first; t < first + count; ++t) {
                     const BvhTriangle& triangle = geometry.triangles[t];
-                    for (const glm::vec3& p : {triangle.v0, triangle.v0 + triangle.e1, triangle.v0 + triangle.e2}) add(p, p);
+                    const glm::vec3 v0 = triangle.v0 - grid.boxes();  // boxes count from the grid's base
+                    for (const glm::vec3& p : {v0, v0 + triangle.e1, v0 + triangle.e2}) add(p, p);
                 }
                 return box;
             }

@@ -268,7 +268,7 @@ MeshLevel painted(int cells, const std::function<glm::vec4(float u, float v)>& c
     return sheet;
 }
 
-// If this fails, a difference that is seen is no error: black for white is a 32nd of the diagonal off, a turn of normals by 60 degrees a 512th.
+// If this fails, a difference that is seen is no error: black for white is a 32nd of the diagonal off, a turn of normals by 60 degrees a 3000th.
 TEST(LodError, CountsColoursAndNormalsAsLengths) {
     MeshLevel sheet = painted(8, [](float, float) { return glm::vec4(0, 0, 0, 1); });
     const auto diagonal = std::sqrt(2.0f);
@@ -286,7 +286,7 @@ TEST(LodError, CountsColoursAndNormalsAsLengths) {
     sheet.positions.insert(sheet.positions.end(), sheet.positions.begin(), sheet.positions.begin() + count);
     sheet.normals.assign(count, {0, 1, 0});
     sheet.normals.resize(2 * count, {std::sin(pi / 3), std::cos(pi / 3), 0});
-    EXPECT_NEAR(LodReference(sheet).measure(turned).largest(), diagonal / 512, 1e-6f);
+    EXPECT_NEAR(LodReference(sheet).measure(turned).largest(), diagonal / 3000, 1e-6f);
 }
 
 // What lies elsewhere is as far as it is: a line between black and white that moved by a hundredth is no more wrong than that.

@@ -61,7 +61,8 @@ struct Ground {
     double ratio = 1;  ///< length of the quad over its width
 };
 
-// All of a plane is lit, however the sun grazes it.
+// All of a plane is lit, however the sun grazes it. What is looked at lies off the edge that its two triangles share: so far from the origin a ray
+// along it may pass between them.
 TEST_F(RayOffsets, GroundDoesNotShadeItself) {
     const glm::dmat4 turned = glm::rotate(glm::rotate(glm::dmat4(1), 0.4, Point(1, 0, 0)), 0.9, Point(0.3, 1, 0.2));
     glm::dmat4 sheared(1);
@@ -77,7 +78,7 @@ TEST_F(RayOffsets, GroundDoesNotShadeItself) {
         {.name = "200 km, sheared", .size = 2e5, .toWorld = sheared, .place = {0.1, 0, 0.3}},
         {.name = "unlike scales", .size = 1, .toWorld = scaled(1e4, 1e-1, 3) * turned, .place = {0.1, 0, 0.3}},
         {.name = "georeferenced by its node", .size = 1e3, .toWorld = moved(8297640, 533512, 412345), .height = 100},
-        {.name = "georeferenced by its node, turned", .size = 1e3, .toWorld = moved(8297640, 533512, 412345) * turned, .height = 100},
+        {.name = "georeferenced by its node, turned", .size = 1e3, .toWorld = moved(8297640, 533512, 412345) * turned, .height = 100, .place = {0.1, 0, 0.3}},
         {.name = "georeferenced by its vertices", .size = 1e3, .middle = {8297640, 533512, 412345}, .height = 100},
         {.name = "a millimetre", .size = 1e-3, .toWorld = turned, .height = 1e-4},
         {.name = "a million", .size = 1e6, .toWorld = turned, .height = 1e5, .place = {0.2, 0, 0.1}},

@@ -46,10 +46,6 @@ float punctualFalloff(World w, uint light, vec3 direction, float distanceSquared
     return falloff;
 }
 
-// Of where a segment ends and where a ray along it meets something there, relative to its length and at right angles to what is met: the terms
-// of rounding.glsl with s as long as the segment, for triangles of any but the sharpest angles.
-const float SEGMENT_ROUNDING = 32.0 * ROUNDING;
-
 void lightTriangle(World w, vec3 position, inout LightSample s) {
     uint instance = w.lights.at[s.point.light].instance, primitive = w.lights.at[s.point.light].primitive;
     uvec3 corners = cornersOf(w, primitive);
@@ -66,8 +62,7 @@ void lightTriangle(World w, vec3 position, inout LightSample s) {
     s.cosine = abs(facing);
     if (s.cosine <= 1e-6 || !emitsTo(w, material, facing > 0.0)) return;
     s.pdf = w.lights.at[s.point.light].pmf * distanceSquared / (area * s.cosine);
-    float rounding = planeRounding(w, instance, placement, point, position + way, twiceArea / (2.0 * area), 2.0 * area);
-    s.gap = (2.0 * rounding + SEGMENT_ROUNDING * s.distance) / s.cosine;
+    s.gap = segmentGap(w, instance, placement, point, twiceArea, position + way, way);
     s.radianceOverPdf = emissionOn(w, material, corners, s.point.uv) / s.pdf;
 }
 

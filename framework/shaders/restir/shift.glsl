@@ -71,10 +71,11 @@ bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 to
 bool shiftStartAt(inout Shift t, World w, Reservoir path, SampleHit base, PrimaryHit first, ivec2 to, uvec2 size, float jacobian, bool refresh) {
     Ray ray = cameraRay(w, filmOf(to, first.film, size), first.lens);
     if (first.primitive != NONE) {
-        vec3 way = positionOn(w, first.instance, first.primitive, first.barycentrics) - ray.origin;
+        float gap;
+        vec3 way = segmentEnd(w, first.instance, first.primitive, first.barycentrics, ray.origin, gap) - ray.origin;
         ray.direction = safeNormalize(way, ray.direction);
         float reach = length(way);
-        ray.tMax = reach - clamp(4.0 * positionError(w, ray.origin + way), 1e-5 * reach, 0.5 * reach);
+        ray.tMax = reach - min(gap, 0.5 * reach);
     }
     shiftBegin(t, path, base, first, ray, holdsPath(path) ? jacobian : 0.0, refresh);
     t.known = t.carried = true;
@@ -187,6 +188,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     BsdfDirection next;
     LightSample light;
     vec3 goal;  // x_k
+    float gap;  // before it
     if (towards == TOWARDS_SAMPLE) {
         next = pathDirection(b, wo, t.path.seed, j);
         lobe = next.lobe;
@@ -203,7 +205,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
                 shiftFail(t);
                 return false;
             }
-            goal = positionOn(w, t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics);
+            goal = segmentEnd(w, t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics, s.position, gap);
             way = safeNormalize(goal - s.position, way);
         }
     } else {
@@ -234,7 +236,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         t.from = s.position;
         t.vertex = t.shape.k;
         t.state = SHIFT_CONNECT;
-        t.ray = kind == RC_ENVIRONMENT ? spawnRay(w, s, way) : rayBetween(w, s, goal);
+        t.ray = kind == RC_ENVIRONMENT ? spawnRay(w, s, way) : rayBetween(s, goal, gap);
         hit = Hit(0.0, t.hit.rc.barycentrics, kind == RC_ENVIRONMENT ? NONE : t.path.rcPrimitive, t.path.rcInstance);
         direction = way;
         target = true;

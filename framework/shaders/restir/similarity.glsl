@@ -20,7 +20,8 @@ PixelView pixelView(World w, PrimaryHit h) {
     for (int i = 0; i < 3; ++i) n += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
     vec3 way = placePoint(placement, pointOn(w, corners, h.barycentrics).position) - w.camera.position;
     n = safeNormalize(placeNormal(placement, n), vec3(0.0, 1.0, 0.0));
-    return PixelView(false, dot(n, way) > 0.0 ? -n : n, dot(way, w.camera.forward));
+    vec3 view = w.camera.orthographic != 0u ? w.camera.forward : way;
+    return PixelView(false, dot(n, view) > 0.0 ? -n : n, dot(way, w.camera.forward));
 }
 
 /// Symmetric in a and b. `cosine`: least cosine of the angle between the normals; `depth`: most difference of depths, relative to the larger.

@@ -104,11 +104,6 @@ Surface surfaceAt(World w, Hit hit, Ray ray) {
     return s;
 }
 
-/// The same where it isn't known which surface holds the position: ten roundings of the largest coordinate that may have entered it.
-float positionError(World w, vec3 position) {
-    return 10.0 * ROUNDING * (maxComponent(abs(position)) + maxComponent(abs(w.sceneCenter)) + w.sceneRadius);
-}
-
 /// Where a ray that leaves the surface towards `direction` starts: off the triangle by the error bound, to that side.
 vec3 spawnOrigin(Surface s, vec3 direction) { return s.position + (dot(s.normal, direction) < 0.0 ? -s.rounding : s.rounding) * s.normal; }
 
@@ -122,7 +117,23 @@ Ray rayBetween(Surface s, vec3 target, float gap) {
     return Ray(origin, 0.0, direction, 1.0 - clamp(gap * inversesqrt(max(dot(direction, direction), 1e-30)), ROUNDING, 0.5), 0u);
 }
 
-/// The same to a point of an unknown surface: short by four error bounds, and at least 1e-5 of the way.
-Ray rayBetween(World w, Surface s, vec3 target) {
-    return rayBetween(s, target, max(4.0 * positionError(w, target), 1e-5 * distance(target, s.position)));
+// Of where a segment ends and where a ray along it meets something there, relative to its length and at right angles to what is met: the terms
+// of rounding.glsl with s as long as the segment, for triangles of any but the sharpest angles.
+const float SEGMENT_ROUNDING = 32.0 * ROUNDING;
+
+/// How far before `position`, a point of a triangle, a segment that comes to it by `way` has to end, so that the triangle doesn't hide itself; world units.
+/// `perpendicular`: of the triangle, as long as twice its area.
+float segmentGap(World w, uint instance, Placement placement, TrianglePoint point, vec3 perpendicular, vec3 position, vec3 way) {
+    float twiceArea = max(length(perpendicular), 1e-30), reach = length(way);
+    float cosine = abs(dot(perpendicular, way)) / max(twiceArea * reach, 1e-30);
+    return (2.0 * planeRounding(w, instance, placement, point, position, perpendicular / twiceArea, twiceArea) + SEGMENT_ROUNDING * reach) / max(cosine, 1e-6);
+}
+
+/// World-space position of a point on a triangle that a segment from `from` is to end at, and how far before.
+vec3 segmentEnd(World w, uint instance, uint primitive, vec2 barycentrics, vec3 from, out float gap) {
+    Placement placement = placementOf(w, instance);
+    TrianglePoint point = pointOn(w, cornersOf(w, primitive), barycentrics);
+    vec3 position = placePoint(placement, point.position);
+    gap = segmentGap(w, instance, placement, point, placeNormal(placement, cross(point.edge1, point.edge2)), position, position - from);
+    return position;
 }

@@ -87,7 +87,14 @@ void main() {
     Ray ray = spawnRay(w, s, away);
     EXPECT_TRUE(dot(ray.origin - s.position, s.normal) * dot(away, s.normal) >= 0.0);
     EXPECT_TRUE(distance(ray.origin, s.position) > 1e-7 && distance(ray.origin, s.position) < 3e-5);
-    Ray segment = rayBetween(w, s, s.position + 2.0 * away);
+    Ray segment = rayBetween(s, s.position + 2.0 * away, 2e-3);
     EXPECT_NEAR(segment.origin + segment.direction, s.position + 2.0 * away, 1e-5);
-    EXPECT_TRUE(segment.tMax < 1.0 && segment.tMax > 0.999);
+    EXPECT_NEAR(segment.tMax, 0.999, 2e-5);
+
+    // A segment to the point itself ends before the triangle, but no farther from it than rounding asks for.
+    float gap;
+    vec3 from = s.position + s.normal + 0.5 * away, end = segmentEnd(w, instance, primitive, barycentrics, from, gap);
+    EXPECT_NEAR(end, s.position, 1e-6);
+    float height = gap * abs(dot(normalize(end - from), s.normal));
+    EXPECT_TRUE(height > s.rounding && height < 4.0 * s.rounding + 1e-5);
 }
