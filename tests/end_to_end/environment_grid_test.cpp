@@ -2,11 +2,11 @@
 // Maps of the environment that are many thousand texels wide: a sun of one texel, and texels that alternate between dark and bright. The answer is a
 // sum over the map.
 #include "frames.h"
+#include "known_answer.h"
 #include "model.h"
 #include "planted_faults.h"
 
 #include <framework/image/exr.h>
-#include <framework/study/ensemble.h>
 
 #include <functional>
 #include <numbers>
@@ -44,27 +44,19 @@ protected:
         irradiance *= std::numbers::pi / (rows * parts) * 2 * std::numbers::pi / (columns * parts);
         expected_ = albedo / std::numbers::pi * irradiance;
     }
-    static StudyGraph graph(const Path& file, const char* variant, std::vector<StudySetting> set) {
-        return {.graph = file, .variant = variant ? std::optional<std::string>(variant) : std::nullopt, .set = std::move(set), .port = {}, .where = {}};
-    }
     EnsembleSetup setup(int runs) {
         return {.scene = folder.path / "floor.json",
                 .size = {width, height},
                 .warmup = 3,
                 .frame = 3,
                 .runs = runs,
-                .reference = graph(graphs / "path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}}),
+                .reference = studyGraph(graphs / "path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}}),
                 .referenceSamples = 4096};
     }
     EnsembleResult judge(const char* name, const BlockMeans& runs) {
         ImageData image = makeImage(width, height, 3);
         std::ranges::fill(image.values, static_cast<float>(expected_));
-        BlockMeans known;
-        known.add(image);
-        known.add(image);
-        const EnsembleResult result = judgeEnsemble(runs, known, {.halfWidth = 0.005});
-        std::printf("%-16s %+.3f %% +- %.3f %%\n", name, 100 * (result.energy[0] / result.referenceEnergy[0] - 1), 100 * result.halfWidth);
-        return result;
+        return judgeByAnswer(name, runs, known(image), 0.005);
     }
     void expectAllRight() {
         EnsembleJudge judged(setup(48));
@@ -72,10 +64,10 @@ protected:
         EXPECT_EQ(reference.verdict, Verdict::unbiased) << reference.reason;
         const StudySetting one{"initial.bounces", Json(1)}, many{"initial.candidates", Json(16)};
         for (const char* variant : {"no reuse", "temporal only", "spatial only", ""}) {
-            const EnsembleResult result = judge(variant, judged.measure(graph(graphs / "restir_pt.json", *variant ? variant : nullptr, {one, many})));
+            const EnsembleResult result = judge(variant, judged.measure(studyGraph(graphs / "restir_pt.json", *variant ? variant : nullptr, {one, many})));
             EXPECT_EQ(result.verdict, Verdict::unbiased) << variant << ": " << result.reason;
         }
-        const EnsembleResult direct = judge("2022", judged.measure(graph(graphs / "restir_pt_2022.json", nullptr, {})));
+        const EnsembleResult direct = judge("2022", judged.measure(studyGraph(graphs / "restir_pt_2022.json", nullptr, {})));
         EXPECT_EQ(direct.verdict, Verdict::unbiased) << direct.reason;
     }
 
@@ -116,7 +108,7 @@ TEST_F(EnvironmentGrid, FindsPointsThatAreRounded) {
     setup.stage.passes = {folder.path};
     EnsembleJudge judged(setup);
     const EnsembleResult result =
-        judge("rounded", judged.measure(graph(folder.path / "rounded.json", "no reuse", {{"initial.bounces", Json(1)}, {"initial.candidates", Json(16)}})));
+        judge("rounded", judged.measure(studyGraph(folder.path / "rounded.json", "no reuse", {{"initial.bounces", Json(1)}, {"initial.candidates", Json(16)}})));
     EXPECT_EQ(result.verdict, Verdict::biased) << result.reason;
 }
 

@@ -3,10 +3,9 @@
 // The study of the same name goes to 0.1 %.
 #include "../../scenes/generate/moving_furnace.h"
 #include "frames.h"
+#include "known_answer.h"
 #include "model.h"
 #include "planted_faults.h"
-
-#include <framework/study/ensemble.h>
 
 #include <numbers>
 
@@ -99,7 +98,7 @@ private:
 };
 
 /// The frame of the scene that is measured, without noise. `centre`: what pixel centres see alone.
-BlockMeans known(bool centre) {
+BlockMeans answer(bool centre) {
     const Panels panels;
     const OrderedJson camera = OrderedJson::parse(readText(sourceFolder / "scenes/moving_furnace.json"))["camera"], keys = camera["keyframes"];
     const double t = frame / keys[1]["frame"].get<double>();
@@ -122,14 +121,7 @@ BlockMeans known(bool centre) {
             }
             for (int c = 0; c < 3; ++c) image.at(x, y, c) = static_cast<float>(1 + sum / (samples * samples));
         }
-    BlockMeans means;
-    means.add(image);
-    means.add(image);  // an ensemble of no variance
-    return means;
-}
-
-StudyGraph graph(const Path& file, const char* variant, std::vector<StudySetting> set) {
-    return {.graph = file, .variant = variant ? std::optional<std::string>(variant) : std::nullopt, .set = std::move(set), .port = {}, .where = {}};
+    return known(image);
 }
 
 const Path graphs = sourceFolder / "graphs";
@@ -142,13 +134,11 @@ protected:
                 .warmup = 6,
                 .frame = frame,
                 .runs = runs,
-                .reference = graph(graphs / "path_tracer.json", "no accumulation", {{"trace.bounces", Json(8)}}),
+                .reference = studyGraph(graphs / "path_tracer.json", "no accumulation", {{"trace.bounces", Json(8)}}),
                 .referenceSamples = 1024};
     }
     EnsembleResult judge(const char* name, const BlockMeans& runs, const BlockMeans& expected) {
-        const EnsembleResult result = judgeEnsemble(runs, expected, {.halfWidth = 0.01});
-        std::printf("%-24s %+.2f %% +- %.2f %%\n", name, 100 * (result.energy[0] / result.referenceEnergy[0] - 1), 100 * result.halfWidth);
-        return result;
+        return judgeByAnswer(name, runs, expected, 0.01);
     }
 
     TemporaryFolder folder;
@@ -156,7 +146,7 @@ protected:
 
 TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
     EnsembleJudge judged(setup(96));
-    const BlockMeans box = known(false), centres = known(true);
+    const BlockMeans box = answer(false), centres = answer(true);
     const EnsembleResult reference = judge("path tracing", judged.reference(), box);
     EXPECT_EQ(reference.verdict, Verdict::unbiased) << reference.reason;
 
@@ -171,7 +161,7 @@ TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
                       {"splatting", "restir_lod.json", nullptr, false, {bounces, many, radius}},
                       {"2022", "restir_pt_2022.json", nullptr, true, {bounces, many, radius, {"direct.radius", Json(5)}}}};
     for (const auto& technique : techniques) {
-        const EnsembleResult result = judge(technique.name, judged.measure(graph(graphs / technique.file, technique.variant, technique.set)), technique.centre ? centres : box);
+        const EnsembleResult result = judge(technique.name, judged.measure(studyGraph(graphs / technique.file, technique.variant, technique.set)), technique.centre ? centres : box);
         EXPECT_EQ(result.verdict, Verdict::unbiased) << technique.name << ": " << result.reason;
     }
 }
@@ -197,10 +187,10 @@ TEST_F(MovingFurnace, FindsChancesThatAreKept) {
     setup.stage.passes = {folder.path};
     setup.referenceSamples = 64;
     EnsembleJudge judged(setup);
-    const EnsembleResult paths = judge("temporal only, kept", judged.measure(graph(faulty("restir_pt.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), known(false));
+    const EnsembleResult paths = judge("temporal only, kept", judged.measure(studyGraph(faulty("restir_pt.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), answer(false));
     EXPECT_EQ(paths.verdict, Verdict::biased) << paths.reason;
     const EnsembleResult direct =
-        judge("2022, kept", judged.measure(graph(faulty("restir_pt_2022.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), known(true));
+        judge("2022, kept", judged.measure(studyGraph(faulty("restir_pt_2022.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), answer(true));
     EXPECT_EQ(direct.verdict, Verdict::biased) << direct.reason;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reuse against path tracing on scenes that each stress one mechanism: short runs with fixed seeds, to one percent of the energy. The studies
 // of the same names go to 0.3 %.
+#include "frames.h"
 #include "model.h"
 #include "program.h"
 
@@ -65,8 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
-    std::string name = testing::TempDir() + "lodestir_unlit_XXXXXX";
-    const Path folder = ::mkdtemp(name.data());
+    const TemporaryFolder temporary;
+    const Path& folder = temporary.path;
     std::vector<Quad> quads = box({0, 0, 0}, {4, 3, 4}, {.color = {0.7, 0.6, 0.5}}, /* inward = */ true);
     quads.push_back({{0.2, 2.9, 0.2}, {3.6, 0, 0}, {0, 0, 3.6}, {.color = {0.9, 0.8, 0.7}, .layers = {{"KHR_materials_unlit", OrderedJson::object()}}}});
     for (Quad& quad : box({0.8, 0, 1}, {1.9, 1.2, 2.2}, {.color = {0.6, 0.6, 0.3}, .roughness = 0.3})) quads.push_back(quad);
@@ -85,7 +86,6 @@ TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
         EXPECT_EQ(reuse.verdict, Verdict::unbiased) << technique << ": " << reuse.reason;
         EXPECT_LE(reuse.halfWidth, 0.01);
     }
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace
