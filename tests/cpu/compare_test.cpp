@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The command that compares two images: what it prints, and what it refuses.
+#include "../temporary_folder.h"
 #include "printed.h"
 
 #include <framework/app/compare_command.h>
@@ -18,16 +19,13 @@
 namespace lodestir {
 namespace {
 
-class Compare : public testing::Test {
+class Compare : public test::FolderTest {
 protected:
     Compare() {
-        std::string name = testing::TempDir() + "lodestir_compare_XXXXXX";
-        folder = ::mkdtemp(name.data());
         writeImage(folder / "x.exr", {2, 1, 3, {1, 2, 3, 4, 4, 4}});
         writeImage(folder / "x4.exr", {2, 1, 4, {1, 2, 3, 0, 4, 4, 4, 0.5f}});
         writeImage(folder / "r.exr", {2, 1, 3, {1, 0, 0.5f, 4, 4, 4}});
     }
-    ~Compare() override { std::filesystem::remove_all(folder); }
 
     /// Parses and runs; returns what was printed.
     std::string compare(std::vector<std::string> arguments) {
@@ -36,8 +34,6 @@ protected:
         }
         return printed(addCompare, "compare", std::move(arguments));
     }
-
-    Path folder;
 };
 
 // Scripts read this.

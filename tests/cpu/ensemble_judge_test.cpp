@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The judge of bias without a device: moments and tests with known answers, error rates by simulation, verdicts, rows, reports, wrong
 // files.
+#include "../temporary_folder.h"
+
 #include <framework/core/error.h>
 #include <framework/study/ensemble_images.h>
 #include <framework/study/ensemble_report.h>
@@ -288,15 +290,12 @@ TEST(Verdict, PowerIsWhatItIs) {
     EXPECT_NEAR(result.faults[0].caught, power, 0.17) << "the ensemble's own spread is an estimate";
 }
 
-class EnsembleFiles : public testing::Test {
+class EnsembleFiles : public test::FolderTest {
 protected:
     EnsembleFiles() {
-        std::string name = testing::TempDir() + "lodestir_ensemble_XXXXXX";
-        folder = ::mkdtemp(name.data());
         writeFile(folder / "box.json", "{}");
         writeFile(folder / "graph.json", "{}");
     }
-    ~EnsembleFiles() override { std::filesystem::remove_all(folder); }
 
     Study load(const std::string& text) {
         writeFile(folder / "study.json", text);
@@ -312,7 +311,6 @@ protected:
         return lines;
     }
 
-    Path folder;
     const std::string good =
         R"({ "format": 1, "kind": "ensemble", "about": "a < b", "scenes": ["box.json"], "size": [64, 40], "runs": 80, "seed": 7,
       "frames": { "warmup": 3, "measure": [0, 2] }, "reference": { "graph": "graph.json", "spp": 128 }, "halfWidth": 0.02,

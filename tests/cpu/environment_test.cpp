@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Environment maps: the direction rule, solid angles, the sky and its sun.
+#include "../temporary_folder.h"
+
 #include <framework/core/error.h>
 #include <framework/image/exr.h>
 #include <framework/scene/atmosphere.h>
@@ -56,8 +58,8 @@ TEST(Environment, KnowsWhereDirectionsAre) {
 
 // If this fails, what a file has beside its colours is taken for one of them.
 TEST(Environment, MapsAreColourOrGrey) {
-    std::string name = testing::TempDir() + "lodestir_environment_XXXXXX";
-    const Path folder = ::mkdtemp(name.data());
+    const test::TemporaryFolder temporary;
+    const Path& folder = temporary.path;
     const auto radiance = [&](const ImageData& image, const std::vector<std::string>& channels) {
         writeExr(folder / "map.exr", image, {.channels = channels});
         std::vector<std::string> notes;
@@ -70,7 +72,6 @@ TEST(Environment, MapsAreColourOrGrey) {
     EXPECT_EQ(radiance({2, 1, 4, {1, 2, 3, 9, 4, 5, 6, 9}}, {"r", "g", "b", "Z"})[0], color);
     EXPECT_EQ(radiance({2, 1, 2, {7, 0.5f, 8, 0.5f}}, {"Y", "A"})[1], glm::vec3(8));
     EXPECT_THROW(radiance({2, 1, 2, {1, 2, 3, 4}}, {"R", "G"}), Error);
-    std::filesystem::remove_all(folder);
 }
 
 // If this fails, sampling a texel looks up another one.

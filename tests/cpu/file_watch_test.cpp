@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Changes of files: in place, by renaming over, of size alone, of time alone; and a file that is gone for a while.
+#include "../temporary_folder.h"
+
 #include <framework/core/file_watch.h>
 
 #include <gtest/gtest.h>
@@ -10,22 +12,19 @@
 namespace lodestir {
 namespace {
 
-class FileWatchTest : public testing::Test {
+class FileWatchTest : public test::FolderTest {
 protected:
     FileWatchTest() {
-        std::string name = testing::TempDir() + "lodestir_watch_XXXXXX";
-        folder = ::mkdtemp(name.data());
         a = folder / "a.glsl";
         b = folder / "b.glsl";
         writeFile(a, "one");
         writeFile(b, "two");
         watch.watch({a, b});
     }
-    ~FileWatchTest() override { std::filesystem::remove_all(folder); }
     /// A later time than the last one, whatever the file system's steps.
     void touch(const Path& file) { std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++seconds)); }
 
-    Path folder, a, b;
+    Path a, b;
     FileWatch watch;
     int seconds = 0;
 };

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reading, writing aside, hashing, and where folders lie.
+#include "../temporary_folder.h"
+
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/is_file.h>
@@ -20,18 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for each test, removed at the end.
-class Files : public testing::Test {
+class Files : public test::FolderTest {
 protected:
-    Files() {
-        std::string name = testing::TempDir() + "lodestir_files_XXXXXX";
-        folder = ::mkdtemp(name.data());
-    }
-    ~Files() override { fs::remove_all(folder); }
-
     std::size_t fileCount() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})); }
-
-    Path folder;
 };
 
 template <class Call> std::string refusal(Call call) {

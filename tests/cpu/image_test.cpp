@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Image files: round trips, rounding, windows, and what must be refused.
+#include "../temporary_folder.h"
 #include "png_bytes.h"
 
 #include <framework/core/error.h>
@@ -36,16 +37,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Images : public testing::Test {
-protected:
-    Images() {
-        std::string name = testing::TempDir() + "lodestir_images_XXXXXX";
-        folder = ::mkdtemp(name.data());
-    }
-    ~Images() override { fs::remove_all(folder); }
-
-    Path folder;
-};
+class Images : public test::FolderTest {};
 
 template <class Call> std::string refusal(Call call) {
     try {

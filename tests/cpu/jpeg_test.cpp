@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // JPEG files: the picture that went in comes out, and damaged ones are refused.
+#include "../temporary_folder.h"
+
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/image/image_file.h>
@@ -14,14 +16,8 @@
 namespace lodestir {
 namespace {
 
-class Jpeg : public testing::Test {
+class Jpeg : public test::FolderTest {
 protected:
-    Jpeg() {
-        std::string name = testing::TempDir() + "lodestir_jpeg_XXXXXX";
-        folder = ::mkdtemp(name.data());
-    }
-    ~Jpeg() override { std::filesystem::remove_all(folder); }
-
     /// A picture of one colour, 8 bits a channel.
     static std::string encoded(int width, int height, int channels, const std::vector<unsigned char>& pixel) {
         std::vector<unsigned char> texels;
@@ -33,8 +29,6 @@ protected:
         EXPECT_NE(stbi_write_jpg_to_func(append, &bytes, width, height, channels, texels.data(), 95), 0);
         return bytes;
     }
-
-    Path folder;
 };
 
 TEST_F(Jpeg, IsReadAsLinearLight) {

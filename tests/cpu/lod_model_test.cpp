@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `lodestir lod`: what is written is read back, all else of the model stays, and bad input leaves no file.
+#include "../temporary_folder.h"
 #include "gltf_model.h"
 #include "lod_surface.h"
 #include "printed.h"
@@ -20,14 +21,8 @@ namespace {
 
 using nlohmann::json;
 
-class LodCommand : public testing::Test {
+class LodCommand : public test::FolderTest {
 protected:
-    LodCommand() {
-        std::string name = testing::TempDir() + "lodestir_lod_XXXXXX";
-        folder = ::mkdtemp(name.data());
-    }
-    ~LodCommand() override { std::filesystem::remove_all(folder); }
-
     /// A primitive with the surface's positions, UVs (if asked for) and triangles.
     json primitive(const MeshLevel& surface, bool withUvs = true) {
         std::vector<float> positions, uvs;
@@ -58,7 +53,6 @@ protected:
         return scene;
     }
 
-    Path folder;
     GltfModel model;
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // .npy files: known bytes, and what NumPy itself makes of them where it is installed.
+#include "../temporary_folder.h"
+
 #include <framework/graph/npy.h>
 
 #include <framework/core/error.h>
@@ -18,14 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using Shape = std::vector<std::size_t>;
 
-class Npy : public testing::Test {
+class Npy : public test::FolderTest {
 protected:
-    Npy() {
-        std::string name = testing::TempDir() + "lodestir_npy_XXXXXX";
-        folder = ::mkdtemp(name.data());
-    }
-    ~Npy() override { fs::remove_all(folder); }
-
     /// Writes, and returns the header dictionary after checking the frame around it.
     std::string header(std::span<const std::byte> bytes, const std::vector<StructField>& fields, const Shape& shape) {
         writeNpy(folder / "x.npy", bytes, fields, shape);
@@ -53,8 +49,6 @@ protected:
         return readText(folder / "out");
     }
     static bool hasNumpy() { return std::system("python3 -c 'import numpy' > /dev/null 2>&1") == 0; }
-
-    Path folder;
 };
 
 std::vector<StructField> hitFields() { return structFields("PrimaryHit", "world/primary_hit.h", {shaderFolder()}, sizeof(PrimaryHit)); }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The layout read from a header's text against the layout the compiler made of the same header.
+#include "../temporary_folder.h"
+
 #include <framework/graph/struct_layout.h>
 
 #include <framework/core/error.h>
@@ -36,14 +38,8 @@ std::string inWords(const std::vector<StructField>& fields) {
     return text;
 }
 
-class StructLayout : public testing::Test {
+class StructLayout : public test::FolderTest {
 protected:
-    StructLayout() {
-        std::string name = testing::TempDir() + "lodestir_struct_XXXXXX";
-        folder = ::mkdtemp(name.data());
-    }
-    ~StructLayout() override { fs::remove_all(folder); }
-
     std::vector<StructField> read(std::string_view text, std::string_view name, std::size_t size) {
         writeFile(folder / "s.h", text);
         return structFields(name, "s.h", {folder}, size);
@@ -59,8 +55,6 @@ protected:
         }
         return "";
     }
-
-    Path folder;
 };
 
 // If this fails, dumps of hits name the wrong bytes.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The study core without a device: study files and what is said of wrong ones, runs, statistics, errors by halves, results that survive a kill, reports.
+#include "../temporary_folder.h"
+
 #include <framework/core/error.h>
 #include <framework/image/metrics.h>
 #include <framework/study/chart.h>
@@ -17,16 +19,13 @@
 namespace lodestir {
 namespace {
 
-class StudyTest : public testing::Test {
+class StudyTest : public test::FolderTest {
 protected:
     StudyTest() {
-        std::string name = testing::TempDir() + "lodestir_study_XXXXXX";
-        folder = ::mkdtemp(name.data());
         writeFile(folder / "box.json", "{}");
         writeFile(folder / "hall.json", "{}");
         writeFile(folder / "graph.json", "{}");
     }
-    ~StudyTest() override { std::filesystem::remove_all(folder); }
 
     Path write(const std::string& text) {
         writeFile(folder / "study.json", text);
@@ -43,7 +42,6 @@ protected:
         return lines;
     }
 
-    Path folder;
     const std::string good = R"({ "format": 1, "about": "two knobs",
       "scenes": ["box.json", "hall.json"], "size": [32, 18], "seeds": 3,
       "frames": { "warmup": 4, "event": 10, "measure": [2, -1, 0] },

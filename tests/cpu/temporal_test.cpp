@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Flicker and tFLIP of sequences whose errors are known: still, offset, white noise, and errors that move with the content.
+#include "../temporary_folder.h"
+
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/image/sequence.h>
@@ -150,8 +152,8 @@ TEST(Temporal, RefusesWhatCannotBeCompared) {
 }
 
 TEST(Sequences, AreFoundByNumber) {
-    std::string name = testing::TempDir() + "lodestir_sequence_XXXXXX";
-    const Path folder = ::mkdtemp(name.data());
+    const test::TemporaryFolder temporary;
+    const Path& folder = temporary.path;
     for (const char* file : {"a.0.exr", "a.1.exr", "a.10.exr", "a.1.png", "a.x.exr", "a.-1.exr", "b.1.exr", "a..exr", "a.1b.exr"})
         writeFile(folder / file, std::string_view("x"));
     EXPECT_TRUE(isSequence(folder / "a.%d.exr"));
@@ -163,7 +165,6 @@ TEST(Sequences, AreFoundByNumber) {
     EXPECT_THROW(sequenceFiles("/no/such/folder/a.%d.exr"), Error);
     writeFile(folder / "a.01.exr", std::string_view("x"));
     EXPECT_THROW(sequenceFiles(folder / "a.%d.exr"), Error) << "1 and 01";
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

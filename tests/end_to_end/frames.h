@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A graph in this process, frame by frame, with ports to be read.
 #pragma once
+#include "../temporary_folder.h"
 #include "source_folder.h"
 
 #include <framework/app/session.h>
@@ -11,26 +12,11 @@
 
 #include <cstring>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace lodestir::test {
 
 inline Path sceneFile(const std::string& name) { return sourceFolder / "scenes" / (name + ".json"); }
-
-/// A folder that lives as long as this.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = testing::TempDir() + "lodestir_frames_XXXXXX";
-        path = ::mkdtemp(name.data());
-    }
-    ~TemporaryFolder() { std::filesystem::remove_all(path); }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    Path path;
-};
 
 /// A graph in this process whose ports are read after each frame.
 class Frames {
