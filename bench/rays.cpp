@@ -8,7 +8,7 @@
 #include <bench/rays_scenes.h>
 #include <framework/core/error.h>
 #include <framework/core/tasks.h>
-#include <framework/scene/bvh.h>
+#include <framework/scene/bvh/bvh.h>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# LODESTIR_ABI names all that a pass library and the framework must agree on: the headers reachable from framework/graph/pass.h,
+# LODESTIR_ABI names all that a pass library and the framework must agree on: the headers reachable from framework/pass/pass.h,
 # the structs shared with shaders, the compiler and its flags. It is computed at configure time, and again when one of them changes.
 
 # Appends to the list `found` the header and everything of ours that it includes.
@@ -25,7 +25,7 @@ function(lodestir_gather_headers header found)
 endfunction()
 
 set(headers)
-lodestir_gather_headers(${PROJECT_SOURCE_DIR}/framework/graph/pass.h headers)
+lodestir_gather_headers(${PROJECT_SOURCE_DIR}/framework/pass/pass.h headers)
 file(GLOB_RECURSE shared CONFIGURE_DEPENDS framework/shaders/*.h)
 foreach(header ${shared})
     lodestir_gather_headers(${header} headers)

@@ -6,17 +6,19 @@ set(share share/lodestir)
 
 install(TARGETS lodestir framework RUNTIME DESTINATION bin LIBRARY DESTINATION lib)
 set_target_properties(lodestir PROPERTIES INSTALL_RPATH "\$ORIGIN/../lib")
-foreach(name ${pass_names})
-    install(TARGETS pass_${name} LIBRARY DESTINATION lib/lodestir/passes/${name})
-    set_target_properties(pass_${name} PROPERTIES INSTALL_RPATH "\$ORIGIN/../../..")
-    install(DIRECTORY passes/${name} DESTINATION lib/lodestir/passes PATTERN *.cpp EXCLUDE)
+foreach(folder ${pass_folders})
+    get_filename_component(name ${folder} NAME)
+    install(TARGETS pass_${name} LIBRARY DESTINATION lib/lodestir/${folder})
+    string(REGEX REPLACE "[^/]+" ".." up ${folder})
+    set_target_properties(pass_${name} PROPERTIES INSTALL_RPATH "\$ORIGIN/../${up}")
 endforeach()
-# The examples beside the passes are two folders below the scenes in this tree, but not there.
+install(DIRECTORY passes DESTINATION lib/lodestir PATTERN *.cpp EXCLUDE PATTERN *.test.comp EXCLUDE)
+# The examples beside the passes are as deep below the scenes' folder as they are here below the root, but two folders more.
 install(CODE [[
-    file(GLOB graphs "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/lib/lodestir/passes/*/*.json")
+    file(GLOB_RECURSE graphs "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/lib/lodestir/passes/*.json")
     foreach(graph ${graphs})
         file(READ ${graph} text)
-        string(REPLACE "\"../../scenes/" "\"../../../../share/lodestir/scenes/" text "${text}")
+        string(REGEX REPLACE "\"((\\.\\./)+)scenes/" "\"../../\\1share/lodestir/scenes/" text "${text}")
         file(WRITE ${graph} "${text}")
     endforeach()]])
 

@@ -136,7 +136,7 @@ Results dispatch(gpu::Commands& commands, const gpu::Device& device, const gpu::
 bool runTest(const gpu::Device& device, const Path& path) {
     const std::string name = path.filename().string();
     const Directives directives = readDirectives(path, readText(path));
-    const gpu::Spirv spirv = gpu::compileShader({path, {shaderFolder()}, {}, {}, device.facts().readsTexels});
+    const gpu::Spirv spirv = gpu::compileShader({path, {shaderFolder(), familyFolder()}, {}, {}, device.facts().readsTexels});
     const gpu::Pipeline pipeline(device, spirv, {}, sizeof(Push), name);
     const gpu::Buffer buffer(device, resultBytes, gpu::Memory::device, "test results");
     gpu::Commands commands(device);
@@ -162,8 +162,9 @@ bool runTest(const gpu::Device& device, const Path& path) {
 
 std::vector<Path> allTests() {
     std::vector<Path> tests;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(shaderFolder()))
-        if (entry.path().string().ends_with(".test.comp")) tests.push_back(entry.path());
+    for (const Path& folder : {shaderFolder(), familyFolder()})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.path().string().ends_with(".test.comp")) tests.push_back(entry.path());
     std::ranges::sort(tests);
     return tests;
 }

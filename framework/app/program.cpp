@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/program.h>
 
-#include <framework/app/check_command.h>
+#include <framework/app/commands/check.h>
 #include <framework/app/command_line.h>
-#include <framework/app/compare_command.h>
-#include <framework/app/devices_command.h>
-#include <framework/app/lod_command.h>
-#include <framework/app/passes_command.h>
-#include <framework/app/run_command.h>
-#include <framework/app/scene_command.h>
-#include <framework/app/study_command.h>
-#include <framework/app/view_command.h>
+#include <framework/app/commands/compare.h>
+#include <framework/app/commands/devices.h>
+#include <framework/app/commands/lod.h>
+#include <framework/app/commands/passes.h>
+#include <framework/app/commands/run.h>
+#include <framework/app/commands/scene.h>
+#include <framework/app/commands/study.h>
+#include <framework/app/commands/view.h>
 #include <framework/core/error.h>
 
 #include <CLI/CLI.hpp>

@@ -41,6 +41,7 @@ LODESTIR_API Path cacheFolder(std::string_view kind);
 /// Where the running library's shaders, passes and scenes lie: the build and source trees when run from the build, else the install prefix.
 LODESTIR_API Path shaderFolder();
 LODESTIR_API Path passFolder();
+LODESTIR_API Path familyFolder();  ///< the families of passes as sources: headers and shaders that passes share
 LODESTIR_API Path sceneFolder();  ///< generated models
 
 }  // namespace lodestir

@@ -68,6 +68,11 @@ Path passFolder() {
     return runsFromBuild() && isFolder(build) ? build : libraryFolder() / "lodestir/passes";
 }
 
+Path familyFolder() {
+    const Path source = Path(LODESTIR_SOURCE_DIR) / "passes";
+    return runsFromBuild() && isFolder(source) ? source : passFolder();
+}
+
 Path sceneFolder() {
     const Path build = Path(LODESTIR_BUILD_DIR) / "scenes";
     return runsFromBuild() && isFolder(build) ? build : shared("scenes");

@@ -2,7 +2,7 @@
 // A checked graph: every pass constructed, every input bound, every parameter set. Still no GPU.
 #pragma once
 #include <framework/graph/description.h>
-#include <framework/graph/pass.h>
+#include <framework/pass/pass.h>
 #include <framework/graph/plugins.h>
 
 #include <memory>

@@ -8,7 +8,7 @@
 #include <framework/gpu/heap.h>
 #include <framework/gpu/include_closure.h>
 #include <framework/graph/header.h>
-#include <framework/scene/scene_facts.h>
+#include <framework/scene/upload/scene_facts.h>
 #include <framework/shaders/base/frame.h>
 
 #include <algorithm>

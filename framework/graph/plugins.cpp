@@ -26,7 +26,7 @@ Path libraryOf(const Plugin& plugin) {
 /// How to get a library that fits: ours, or one of an extra folder.
 std::string rebuildHint(const std::string& folder, const Path& file) {
     std::error_code none;
-    const bool ours = fs::equivalent(file.parent_path().parent_path(), passFolder(), none);
+    const bool ours = fs::equivalent(file.parent_path().parent_path().parent_path(), passFolder(), none);
     return ours ? "run: cmake --build build --target pass_" + folder : "build it again against the framework that it is to run with";
 }
 
@@ -52,11 +52,19 @@ PluginLibraries::PluginLibraries(std::vector<Path> extraFolders) {
 
 void PluginLibraries::addBuiltIn(const std::string& type, const Plugin& plugin) { builtIns_.insert_or_assign(type, plugin); }
 
-Path PluginLibraries::fileOf(const std::string& folder) const {
+Path PluginLibraries::fileOf(const std::string& folder, const Where& where) const {
+    const Path name = Path(folder) / ("lib" + folder + ".so");
+    std::error_code none;
     for (const Path& root : folders_) {
-        const Path file = root / folder / ("lib" + folder + ".so");
-        std::error_code none;
-        if (fs::is_regular_file(file, none)) return file;
+        if (fs::is_regular_file(root / name, none)) return root / name;
+        Path found;
+        for (const fs::directory_entry& family : fs::directory_iterator(root, none)) {
+            const Path file = family.path() / name;
+            if (!fs::is_regular_file(file, none)) continue;
+            if (!found.empty()) throw Error(where, "two families have a pass type \"" + folder + "\": " + found.string() + " and " + file.string(), "rename one");
+            found = file;
+        }
+        if (!found.empty()) return found;
     }
     return {};
 }
@@ -66,9 +74,13 @@ std::vector<std::string> PluginLibraries::knownFolders() const {
     for (const auto& [type, plugin] : builtIns_) names.insert(type);
     for (const Path& root : folders_) {
         std::error_code none;
+        const auto add = [&](const Path& folder) {
+            const std::string name = folder.filename().string();
+            if (fs::is_regular_file(folder / ("lib" + name + ".so"), none)) names.insert(name);
+        };
         for (const fs::directory_entry& entry : fs::directory_iterator(root, none)) {
-            const std::string name = entry.path().filename().string();
-            if (!fileOf(name).empty()) names.insert(name);
+            add(entry.path());
+            for (const fs::directory_entry& inner : fs::directory_iterator(entry.path(), none)) add(inner.path());
         }
     }
     return {names.begin(), names.end()};
@@ -102,7 +114,7 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     if (const auto builtIn = builtIns_.find(type); builtIn != builtIns_.end()) return builtIn->second;
     const std::size_t dot = type.find('.');
     const std::string folder = type.substr(0, dot);
-    const Path file = fileOf(folder);
+    const Path file = fileOf(folder, where);
     if (file.empty()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(folder, knownFolders()));
 
     const std::vector<const Plugin*>& plugins = library(folder, file, where);
@@ -126,7 +138,7 @@ std::vector<PluginLibraries::Entry> PluginLibraries::all(Problems& problems) {
             continue;
         }
         try {
-            const std::vector<const Plugin*>& plugins = library(name, fileOf(name), {});
+            const std::vector<const Plugin*>& plugins = library(name, fileOf(name, {}), {});
             for (const Plugin* plugin : plugins) entries.push_back({plugins.size() == 1 ? name : name + "." + plugin->type, plugin});
         } catch (const Error& error) {
             problems.add(error);
@@ -146,7 +158,11 @@ Path shaderOf(const Plugin& plugin, std::string_view file) {
 }
 
 std::vector<Path> includeFolders(const Plugin& plugin) {
-    return {libraryOf(plugin).parent_path(), Path(plugin.source).parent_path(), shaderFolder()};
+    const Path library = libraryOf(plugin).parent_path(), source = Path(plugin.source).parent_path();
+    std::vector<Path> folders{library, source, shaderFolder()};
+    for (const Path& own : {library, source}) folders.push_back(own.parent_path().parent_path());  // that of its family
+    folders.push_back(familyFolder());
+    return folders;
 }
 
 }  // namespace lodestir

@@ -3,7 +3,7 @@
 #pragma once
 #include <framework/core/error.h>
 #include <framework/core/files.h>
-#include <framework/graph/pass.h>
+#include <framework/pass/pass.h>
 
 #include <map>
 #include <string>
@@ -12,8 +12,9 @@
 
 namespace lodestir {
 
-/// Pass types are named "folder" where the folder's library holds one pass, else "folder.Struct". The library of folder x is x/libx.so in
-/// passFolder() or, after that, in the extra folders. Loaded libraries stay mapped until the process ends.
+/// Pass types are named "folder" where the folder's library holds one pass, else "folder.Struct", whatever family the folder is in. The library
+/// of folder x is x/libx.so or FAMILY/x/libx.so in passFolder() or, after that, in the extra folders. Loaded libraries stay mapped until the
+/// process ends.
 class LODESTIR_API PluginLibraries {
 public:
     explicit PluginLibraries(std::vector<Path> extraFolders = {});
@@ -37,8 +38,8 @@ public:
 private:
     /// The passes of one folder, in order of declaration; loads the library.
     const std::vector<const Plugin*>& library(const std::string& folder, const Path& file, const Where& where);
-    Path fileOf(const std::string& folder) const;   ///< empty: there is none
-    std::vector<std::string> knownFolders() const;  ///< sorted, with the built-in types
+    Path fileOf(const std::string& folder, const Where& where) const;  ///< empty: there is none; Error at `where`: in two families
+    std::vector<std::string> knownFolders() const;                     ///< sorted, with the built-in types
 
     std::vector<Path> folders_;
     std::map<std::string, Plugin> builtIns_;
@@ -50,7 +51,7 @@ LODESTIR_API std::string_view frameworkAbi();
 /// A file of a pass's folder: beside its library first, then beside its source.
 LODESTIR_API Path shaderOf(const Plugin& plugin, std::string_view file);
 /// Folders in which the includes of a pass's shaders and struct headers are looked up: beside the library, beside the source, the
-/// framework's shaders.
+/// framework's shaders, and the folders of its own family and of all of ours, in which a module is "family/module.glsl".
 LODESTIR_API std::vector<Path> includeFolders(const Plugin& plugin);
 
 }  // namespace lodestir

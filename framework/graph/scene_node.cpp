@@ -2,7 +2,7 @@
 #include <framework/graph/scene_node.h>
 
 #include <framework/graph/plugins.h>
-#include <framework/scene/world.h>
+#include <framework/scene/upload/world.h>
 
 #include <optional>
 

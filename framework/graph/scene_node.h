@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The built-in pass "scene", which every graph starts from.
 #pragma once
-#include <framework/graph/pass.h>
+#include <framework/pass/pass.h>
 
 namespace lodestir {
 

@@ -2,7 +2,7 @@
 // What passes declare, told to people and programs: JSON facts, Markdown, and a JSON Schema for graph files.
 #pragma once
 #include <framework/core/json.h>
-#include <framework/graph/pass.h>
+#include <framework/pass/pass.h>
 
 #include <memory>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Texels of an image port as floats.
 #pragma once
-#include <framework/graph/port.h>
+#include <framework/pass/port.h>
 #include <framework/image/image.h>
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 #include <framework/scene/default_light.h>
 
 #include <framework/image/srgb.h>
-#include <framework/scene/box.h>
+#include <framework/scene/bvh/box.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/sky.h>
 

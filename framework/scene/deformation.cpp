@@ -3,7 +3,7 @@
 
 #include <framework/core/tasks.h>
 #include <framework/scene/flattening.h>
-#include <framework/scene/mesh_bounds.h>
+#include <framework/scene/bvh/mesh_bounds.h>
 #include <framework/scene/shading_frame.h>
 
 #include <cmath>

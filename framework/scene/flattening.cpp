@@ -2,7 +2,7 @@
 #include <framework/scene/flattening.h>
 
 #include <framework/scene/deformation.h>
-#include <framework/scene/mesh_bounds.h>
+#include <framework/scene/bvh/mesh_bounds.h>
 
 #include <fmt/format.h>
 

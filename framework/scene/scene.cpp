@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Loads a scene and gives it what every scene needs: a camera, a light, a material.
 #include <framework/core/error.h>
-#include <framework/scene/box.h>
+#include <framework/scene/bvh/box.h>
 #include <framework/scene/camera.h>
 #include <framework/scene/default_light.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/flattening.h>
-#include <framework/scene/gltf.h>
+#include <framework/scene/gltf/gltf.h>
 #include <framework/scene/level_policy.h>
 #include <framework/scene/panes.h>
 #include <framework/scene/scene_file.h>

@@ -4,7 +4,7 @@
 #include <framework/core/file_kind.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/fields.h>
-#include <framework/scene/gltf.h>
+#include <framework/scene/gltf/gltf.h>
 #include <framework/scene/scene_file.h>
 #include <framework/scene/scene_sections.h>
 

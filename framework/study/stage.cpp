@@ -6,9 +6,9 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
-#include <framework/study/motions.h>
+#include <framework/study/error/motions.h>
 #include <framework/study/stage.h>
-#include <framework/study/switched_masks.h>
+#include <framework/study/error/switched_masks.h>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <framework/graph/runner.h>
 #include <framework/scene/scene.h>
-#include <framework/study/halves.h>
+#include <framework/study/error/halves.h>
 #include <framework/study/run_list.h>
 
 #include <memory>

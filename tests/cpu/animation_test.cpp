@@ -5,7 +5,7 @@
 #include <framework/core/error.h>
 #include <framework/scene/animation.h>
 #include <framework/scene/camera.h>
-#include <framework/scene/gltf.h>
+#include <framework/scene/gltf/gltf.h>
 
 #include <gtest/gtest.h>
 

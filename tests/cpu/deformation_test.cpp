@@ -5,8 +5,8 @@
 
 #include <framework/core/error.h>
 #include <framework/scene/deformation.h>
-#include <framework/scene/geometry.h>
-#include <framework/scene/gltf.h>
+#include <framework/scene/upload/geometry.h>
+#include <framework/scene/gltf/gltf.h>
 #include <framework/scene/scene_file.h>
 
 #include <gtest/gtest.h>

@@ -4,10 +4,10 @@
 #include "../temporary_folder.h"
 
 #include <framework/core/error.h>
-#include <framework/study/ensemble_images.h>
-#include <framework/study/ensemble_report.h>
+#include <framework/study/ensemble/images.h>
+#include <framework/study/ensemble/report.h>
 #include <framework/study/results.h>
-#include <framework/study/statistics.h>
+#include <framework/study/error/statistics.h>
 
 #include <gtest/gtest.h>
 

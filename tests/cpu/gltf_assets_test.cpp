@@ -4,7 +4,7 @@
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/json.h>
-#include <framework/scene/gltf.h>
+#include <framework/scene/gltf/gltf.h>
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include "gltf_model.h"
 
 #include <framework/core/error.h>
-#include <framework/scene/gltf.h>
-#include <framework/scene/meshopt_attributes.h>
+#include <framework/scene/gltf/gltf.h>
+#include <framework/scene/gltf/meshopt_attributes.h>
 
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>

@@ -4,10 +4,10 @@
 #include "png_bytes.h"
 
 #include <framework/core/error.h>
-#include <framework/scene/gltf.h>
+#include <framework/scene/gltf/gltf.h>
 #include <framework/scene/shading_frame.h>
 #include <framework/scene/tangent_space.h>
-#include <framework/scene/uri.h>
+#include <framework/scene/gltf/uri.h>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The tables that lights are sampled by.
-#include <framework/scene/alias_table.h>
-#include <framework/scene/environment_table.h>
-#include <framework/scene/light_list.h>
-#include <framework/scene/mipmaps.h>
+#include <framework/scene/upload/alias_table.h>
+#include <framework/scene/upload/environment_table.h>
+#include <framework/scene/upload/light_list.h>
+#include <framework/scene/upload/mipmaps.h>
 
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>

@@ -2,9 +2,9 @@
 // Levels of detail: what may move and what must stay, and errors with known answers.
 #include "lod_surface.h"
 
-#include <framework/scene/lod_chain.h>
-#include <framework/scene/lod_colors.h>
-#include <framework/scene/lod_simplify.h>
+#include <framework/scene/lod/chain.h>
+#include <framework/scene/lod/colors.h>
+#include <framework/scene/lod/simplify.h>
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #include "lod_surface.h"
 #include "printed.h"
 
-#include <framework/app/lod_command.h>
+#include <framework/app/commands/lod.h>
 #include <framework/core/error.h>
 #include <framework/core/json.h>
-#include <framework/scene/gltf.h>
-#include <framework/scene/gltf_file.h>
-#include <framework/scene/lod_gltf.h>
+#include <framework/scene/gltf/gltf.h>
+#include <framework/scene/gltf/file.h>
+#include <framework/scene/lod/model.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The camera of the viewer, with answers that geometry gives.
-#include <framework/app/orbit_camera.h>
+#include <framework/app/view/orbit_camera.h>
 
 #include <gtest/gtest.h>
 

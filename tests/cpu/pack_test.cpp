@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // If these fail, the GPU reads normals, tangents and colours otherwise than the CPU wrote them: base/pack.test.comp has the same answers.
-#include <framework/scene/pack.h>
+#include <framework/scene/upload/pack.h>
 
 #include <gtest/gtest.h>
 

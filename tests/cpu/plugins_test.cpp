@@ -16,19 +16,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* twoPasses = R"(#include <framework/graph/pass.h>
+constexpr const char* twoPasses = R"(#include <framework/pass/pass.h>
 using namespace lodestir;
 struct First final : Pass { Out<Image> image{this, "image", "an image", Format::r16f}; Param<int> n{this, "n", 3, {0, 9}, "a number"}; };
 struct Second final : Pass { In<Image> image{this, "image", "an image"}; Out<Image> copy{this, "copy", "a copy", Format::r16f}; };
 LODESTIR_PASS(First, "first.comp", "Makes an image.")
 LODESTIR_PASS(Second, "second.comp", "Copies an image.")
 )";
-constexpr const char* onePass = R"(#include <framework/graph/pass.h>
+constexpr const char* onePass = R"(#include <framework/pass/pass.h>
 using namespace lodestir;
 struct Only final : Pass { Out<Image> image{this, "image", "an image", Format::r16f}; };
 LODESTIR_PASS(Only, "only.comp", "The only pass of its folder.")
 )";
-constexpr const char* noPass = "#include <framework/graph/pass.h>\nnamespace { struct Lost final : lodestir::Pass {}; }\n";
+constexpr const char* noPass = "#include <framework/pass/pass.h>\nnamespace { struct Lost final : lodestir::Pass {}; }\n";
 
 /// Folders of passes, compiled once for all tests of this file, as somebody outside the tree would.
 class Plugins : public testing::Test {
@@ -121,7 +121,7 @@ TEST_F(Plugins, FindTheirShaders) {
     PluginLibraries libraries({root()});
     EXPECT_EQ(shaderOf(libraries.find("single"), "only.comp"), root() / "single" / "only.comp");
     EXPECT_THROW(shaderOf(libraries.find("pair.First"), "first.comp"), Error);
-    EXPECT_EQ(includeFolders(libraries.find("single")).back(), shaderFolder());
+    EXPECT_EQ(includeFolders(libraries.find("single")).back(), familyFolder());
 }
 
 /// A rule of the house: constructing a pass never touches the GPU. This test has none.

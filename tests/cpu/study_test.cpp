@@ -4,9 +4,9 @@
 
 #include <framework/core/error.h>
 #include <framework/image/metrics.h>
-#include <framework/study/chart.h>
-#include <framework/study/halves.h>
-#include <framework/study/report.h>
+#include <framework/study/report/chart.h>
+#include <framework/study/error/halves.h>
+#include <framework/study/report/report.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Numbers of ports in words, and the ranges that false colours follow.
-#include <framework/app/texel_values.h>
+#include <framework/app/view/texel_values.h>
 
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>

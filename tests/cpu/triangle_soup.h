@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles and rays to try hierarchies with, and answers found without one.
 #pragma once
-#include <framework/scene/bvh.h>
+#include <framework/scene/bvh/bvh.h>
 
 #include <glm/glm.hpp>
 

@@ -2,7 +2,7 @@
 // The judge of bias on a device: path tracing is found unbiased against itself, and what is wrong on purpose is found out.
 #include "program.h"
 
-#include <framework/study/ensemble.h>
+#include <framework/study/ensemble/ensemble.h>
 
 #include <sstream>
 

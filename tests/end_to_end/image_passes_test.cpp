@@ -186,7 +186,7 @@ TEST_F(ImagePasses, ErrorsHaveTheMeansOfTheMetrics) {
 
 TEST_F(ImagePasses, ErrorsOfAnImageAgainstItsFileAreNone) {
     const Path reference =
-        run("first", sourceFolder / "passes/tone_map/tone_map.json", {"--size", "40x24", "--show", "trace.color"}) / "trace.color.0.exr";
+        run("first", sourceFolder / "passes/basic/tone_map/tone_map.json", {"--size", "40x24", "--show", "trace.color"}) / "trace.color.0.exr";
     const OrderedJson passes = {{"trace", {{"type", "path_tracer"}, {"set", {{"spp", 4}}}}},
                                 {"load", {{"type", "image_loader"}, {"set", {{"file", reference.string()}}}}},
                                 {"error", {{"type", "image_error"}, {"in", {{"test", "trace"}, {"reference", "load"}}}}}};

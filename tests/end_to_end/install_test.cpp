@@ -29,13 +29,13 @@ protected:
 // One test, because it takes its time: if it fails, nobody but us can use this.
 TEST_F(Install, MovesAndTakesPassesFromOutside) {
     for (const char* file :
-         {"lib/liblodestir.so", "lib/lodestir/passes/path_tracer/libpath_tracer.so", "lib/lodestir/passes/path_tracer/path_tracer.comp",
+         {"lib/liblodestir.so", "lib/lodestir/passes/basic/path_tracer/libpath_tracer.so", "lib/lodestir/passes/basic/path_tracer/path_tracer.comp",
           "share/lodestir/shaders/trace/trace.glsl", "share/lodestir/graphs/restir_pt.json", "share/lodestir/scenes/rock.glb",
           "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/docs/files.md", "include/lodestir/framework/graph/pass.h"})
         EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
 
     // It uses what is beside it, not the tree that it was built in.
-    const Path shader = prefix / "lib/lodestir/passes/tone_map/tone_map.comp", example = shader.parent_path() / "tone_map.json";
+    const Path shader = prefix / "lib/lodestir/passes/basic/tone_map/tone_map.comp", example = shader.parent_path() / "tone_map.json";
     const std::string out = (folder / "out").string();
     succeeds({program, "run", example.string(), "--size", "32x18", "--out", out});
     EXPECT_GT(meanOf(readExr(folder / "out/display.0.exr")), 0.01);

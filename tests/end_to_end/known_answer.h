@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ensembles held against an answer that is known without rendering.
 #pragma once
-#include <framework/study/ensemble.h>
+#include <framework/study/ensemble/ensemble.h>
 
 #include <cstdio>
 #include <optional>

@@ -3,9 +3,9 @@
 #include "sheets.h"
 #include "shift_session.h"
 
-#include <framework/shaders/restir/sample_hit.h>
+#include <passes/restir/sample_hit.h>
 #include <framework/shaders/world/primary_hit.h>
-#include <framework/study/ensemble.h>
+#include <framework/study/ensemble/ensemble.h>
 
 namespace lodestir::test {
 namespace {

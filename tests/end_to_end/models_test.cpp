@@ -75,7 +75,7 @@ TEST_F(Models, ThreeContainersOfOneModelGiveOneImage) {
 
 // If this fails, animated nodes stand still.
 TEST_F(Models, AnimatedNodesMove) {
-    const Path out = run("moving", sourceFolder / "passes/visibility/visibility.json",
+    const Path out = run("moving", sourceFolder / "passes/basic/visibility/visibility.json",
                          {"--scene", (assetFolder / "models/BoxAnimated/BoxAnimated.gltf").string(), "--size", "64x36", "--frames", "6",
                           "--show", "hits.motion", "--dump", "hits.normal"});
     const auto moves = [](const ImageData& motion) {

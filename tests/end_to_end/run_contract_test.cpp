@@ -11,7 +11,7 @@ namespace lodestir::test {
 namespace {
 
 const Path pathTracer = sourceFolder / "graphs/path_tracer.json";
-const Path visibility = sourceFolder / "passes/visibility/visibility.json";
+const Path visibility = sourceFolder / "passes/basic/visibility/visibility.json";
 const Arguments small{"--scene", (sourceFolder / "scenes/cornell.json").string(), "--size", "64x48"};
 
 Arguments with(Arguments first, const Arguments& rest) {

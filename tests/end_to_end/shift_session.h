@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A graph of reservoir passes in this process: frames, energies of images, and what passes/shift_check measured of its shifts.
+// A graph of reservoir passes in this process: frames, energies of images, and what passes/restir/shift_check measured of its shifts.
 #pragma once
 #include "frames.h"
 #include "statistics.h"
 
-#include <passes/shift_check/shift_check.h>
+#include <passes/restir/shift_check/shift_check.h>
 
-#include <framework/shaders/restir/reservoir.h>
+#include <passes/restir/reservoir.h>
 
 #include <array>
 #include <map>

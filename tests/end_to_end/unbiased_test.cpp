@@ -5,7 +5,7 @@
 #include "model.h"
 #include "program.h"
 
-#include <framework/study/ensemble.h>
+#include <framework/study/ensemble/ensemble.h>
 
 namespace lodestir::test {
 namespace {
@@ -51,7 +51,7 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
                          .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.pixelCentre", Json(true)}}),
                          .referenceSamples = 2048});
     const EnsembleResult reuse =
-        judge.judge({.graph = sourceFolder / "passes/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
+        judge.judge({.graph = sourceFolder / "passes/restir/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
     EXPECT_LE(reuse.halfWidth, 0.01);
     std::printf("light points: %+.2f %% +- %.2f %%\n", 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);

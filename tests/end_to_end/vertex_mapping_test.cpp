@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // tau on whole models: vertices that pass from level to level by their texture coordinates.
 //
-// Where each row of the test matrix is asked ("points": here, passes/vertex_mapping_check all over a mesh; "images": reuse across the switch,
-// level_switch_test.cpp; "by hand": framework/shaders/lod/vertex_mapping.test.comp, on squares):
+// Where each row of the test matrix is asked ("points": here, passes/lod/vertex_mapping_check all over a mesh; "images": reuse across the switch,
+// level_switch_test.cpp; "by hand": passes/lod/vertex_mapping.test.comp, on squares):
 //   identity                    points Identity, images Identity; by hand
 //   round trip                  points Meshes (every pair of levels of rock, plane, cube and all chess pieces); by hand
 //   area conservation           points Meshes
@@ -25,7 +25,7 @@
 #include "sheets.h"
 #include "shift_session.h"
 
-#include <passes/vertex_mapping_check/vertex_mapping_check.h>
+#include <passes/lod/vertex_mapping_check/vertex_mapping_check.h>
 
 #include <set>
 

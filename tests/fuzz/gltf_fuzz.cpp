@@ -3,8 +3,8 @@
 #include "input_file.h"
 #include "json_mutator.h"
 
-#include <framework/scene/gltf.h>
-#include <framework/scene/mesh_bvh.h>
+#include <framework/scene/gltf/gltf.h>
+#include <framework/scene/bvh/mesh_bvh.h>
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <framework/image/jpeg.h>
 #include <framework/image/png.h>
-#include <framework/scene/gltf_texture.h>
+#include <framework/scene/gltf/texture.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Unit vectors in 32 bits and colours in 64; framework/scene/pack.h is the same in C++.
+// Unit vectors in 32 bits and colours in 64; framework/scene/upload/pack.h is the same in C++.
 //
 // Unit vector: octahedral map (Meyer et al. 2010; Cigolle et al. 2014, A Survey of Efficient Representations for Independent Unit
 // Vectors), x in bits 0-15, y in bits 16-31, each a two's complement integer round(32767 * coordinate).

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// `lodestir check`: validates a graph with all its variants and prints its plan. No GPU.
+#include <framework/app/commands/check.h>
+#include <framework/app/command_line.h>
+#include <framework/app/session.h>
+#include <framework/graph/plan.h>
+#include <framework/graph/plugins.h>
+#include <framework/graph/scene_node.h>
+#include <framework/scene/level_policy.h>
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace lodestir {
+namespace {
+
+struct Options {
+    SessionOptions session;
+    bool json = false;
+};
+
+/// A variant that nobody runs today should not be found broken in the middle of a study.
+void checkVariants(const Options& options, const std::vector<std::string>& names, PluginLibraries& libraries, Problems& problems) {
+    for (const std::string& name : names) {
+        try {
+            GraphOptions changes;
+            changes.variant = name;
+            buildGraph(loadDescription(options.session.graph, changes), libraries);
+        } catch (const Error& error) {
+            for (const Problem& problem : error.problems())
+                problems.add(problem.where, fmt::format("variant \"{}\": {}", name, problem.what), problem.hint);
+        }
+    }
+}
+
+/// Which levels the graph shows: a graph without a pass that selects them follows the scene file.
+std::string levelPolicy(const Graph& graph) {
+    if (graph.description.scene.empty()) return "no scene is named";
+    try {
+        return "by the scene: " + describe(loadScene(graph.description.scene).lod);
+    } catch (const Error& error) {
+        throw Error(graph.description.sceneWhere, fmt::format("the scene can't be loaded: {}", error.problems()[0].text()));
+    }
+}
+
+int check(const Options& options) {
+    PluginLibraries libraries(options.session.passes);
+    libraries.addBuiltIn("scene", scenePlugin());
+    Problems problems;
+    const Graph graph = buildGraph(loadDescription(options.session.graph, options.session.changes), libraries);
+    std::vector<Source> pinned;
+    for (const std::string& dump : options.session.dumps) pinned.push_back(findSource(graph, dump, Where{"--dump"}));
+    if (!options.session.changes.variant) checkVariants(options, graph.description.variants, libraries, problems);
+    problems.raise();
+    const Plan plan = makePlan(graph, pinned, {.allBarriers = options.session.allBarriers});
+    const std::string levels = levelPolicy(graph);
+    if (options.json) {
+        Json json = facts(plan, graph);
+        json["levels"] = levels;
+        fmt::print("{}\n", json.dump());
+    } else {
+        fmt::print("{}levels of detail\n  {}\n", text(plan, graph), levels);
+    }
+    return 0;
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app, std::function<int()>& run) {
+    Command command(app, "check", "Validates a graph and its variants and prints the plan; no GPU");
+    const auto options = std::make_shared<Options>();
+    options->session.addTo(command);
+    command.flag("--json", options->json, "prints the plan as JSON, with the graph and all its defaults");
+    command.does(run, [options] { return check(*options); });
+}
+
+}  // namespace lodestir

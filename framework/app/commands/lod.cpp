@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// lodestir lod MODEL: builds levels of detail and writes them into a copy of the model.
+#include <framework/app/commands/lod.h>
+
+#include <framework/app/command_line.h>
+#include <framework/core/error.h>
+#include <framework/core/files.h>
+#include <framework/core/json.h>
+#include <framework/core/log.h>
+#include <framework/scene/lod/model.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace lodestir {
+namespace {
+
+struct LodArguments {
+    std::string model, out, device, rays;
+    LodModelOptions options;
+    bool json = false, force = false;
+};
+
+Json count(std::size_t value) { return Json(static_cast<std::int64_t>(value)); }
+
+Json levelJson(std::size_t triangles, float coverage) {
+    Json level = Json::object();
+    level["triangles"] = count(triangles);
+    level["coverage"] = Json(double(coverage));
+    return level;
+}
+
+Json toJson(const LodMeshFacts& facts) {
+    Json mesh = Json::object(), levels = Json::array(), notes = Json::array();
+    mesh["name"] = Json(facts.name);
+    mesh["nodes"] = count(facts.nodes);
+    mesh["uvs"] = Json(facts.chain.hasUvs);
+    Json finest = levelJson(facts.triangles, facts.coverages.empty() ? 0 : facts.coverages[0]);
+    finest["error"] = Json(0.0);
+    levels.push(finest);
+    for (std::size_t k = 0; k < facts.coarserTriangles.size(); ++k) {
+        const LodLevel& made = facts.chain.coarser[k];
+        Json level = levelJson(facts.coarserTriangles[k], facts.coverages[k + 1]);
+        level["error"] = Json(double(made.error));
+        level["toFinest"] = Json(double(made.measured.toFinest));
+        level["fromFinest"] = Json(double(made.measured.fromFinest));
+        level["appearance"] = Json(double(made.measured.appearance));
+        if (facts.chain.hasUvs) {
+            level["uv"]["mean"] = Json(double(made.measured.uvMean));
+            level["uv"]["p99"] = Json(double(made.measured.uv99));
+            level["uv"]["largest"] = Json(double(made.measured.uvLargest));
+            level["uv"]["lostCoarse"] = Json(double(made.measured.uvLostCoarse));
+            level["uv"]["lostFinest"] = Json(double(made.measured.uvLostFinest));
+        }
+        levels.push(level);
+    }
+    mesh["levels"] = levels;
+    for (const std::string& note : facts.notes) notes.push(Json(note));
+    mesh["notes"] = notes;
+    return mesh;
+}
+
+void printJson(const LodArguments& arguments, const LodModel& model) {
+    Json json = Json::object(), meshes = Json::array(), notes = Json::array();
+    json["model"] = Json(arguments.model);
+    json["out"] = Json(arguments.out);
+    for (const LodMeshFacts& facts : model.meshes) meshes.push(toJson(facts));
+    json["meshes"] = meshes;
+    for (const std::string& note : model.notes) notes.push(Json(note));
+    json["notes"] = notes;
+    fmt::print("{}\n", json.dump());
+}
+
+void print(const LodArguments& arguments, const LodModel& model) {
+    for (const LodMeshFacts& facts : model.meshes) {
+        fmt::print("{}: {} triangles, {} node{}\n", facts.name, facts.triangles, facts.nodes, facts.nodes == 1 ? "" : "s");
+        for (std::size_t k = 0; k < facts.coarserTriangles.size(); ++k) {
+            const LodLevel& level = facts.chain.coarser[k];
+            fmt::print("  level {}: {} triangles, error {:.3g}, from coverage {:.3g}", k + 1, facts.coarserTriangles[k], level.error,
+                       facts.coverages[k]);
+            if (facts.chain.hasUvs)
+                fmt::print("; points of one UV are {:.3g} apart (99 %: {:.3g}), {:.2g} % have no partner", level.measured.uvMean,
+                           level.measured.uv99, 100 * std::max(level.measured.uvLostCoarse, level.measured.uvLostFinest));
+            fmt::print("\n");
+        }
+        for (const std::string& note : facts.notes) fmt::print("  {}\n", note);
+    }
+    for (const std::string& note : model.notes) fmt::print("note: {}\n", note);
+    fmt::print("{}: {:.1f} MB\n", arguments.out, double(model.glb.size()) / 1e6);
+}
+
+int buildLevels(const LodArguments& arguments) {
+    if (!arguments.force && isSameFile(arguments.out, arguments.model))
+        throw Error(Where{arguments.out}, "--out is the model itself", "name another file, or write over it with --force");
+    const LodModel model = buildLodModel(arguments.model, arguments.options);
+    writeFile(arguments.out, std::span(model.glb));
+    if (arguments.json)
+        printJson(arguments, model);
+    else
+        print(arguments, model);
+    const bool any = std::ranges::any_of(model.meshes, [](const LodMeshFacts& facts) { return !facts.coarserTriangles.empty(); });
+    if (!any) log::warn("{}: no mesh got any levels", arguments.out);
+    return 0;
+}
+
+}  // namespace
+
+void addLod(CLI::App& app, std::function<int()>& run) {
+    const auto arguments = std::make_shared<LodArguments>();
+    Command command(app, "lod", "Builds levels of detail that keep UVs, and writes them into a copy of a model.");
+    command.option("MODEL", arguments->model, "a model (.gltf, .glb)").required();
+    command.option("--out", arguments->out, "file to write (.glb)").required().check([](const std::string& name) {
+        return Path(name).extension() == ".glb" ? std::string() : "\"" + name + "\" must end in .glb: that is what is written";
+    });
+    command.option("--levels", arguments->options.chain.levels, "how many there are to be, the finest included (4)")
+        .within(2, maxLevels);
+    command.option("--ratio", arguments->options.chain.ratio, "triangles of a level over those of the next: 2 or 4 (2)")
+        .oneOf({2, 4});
+    command.option("--mesh", arguments->options.meshes, "only meshes of this name").repeatable();
+    command.flag("--force", arguments->force, "write over the model itself where --out names it");
+    command.flag("--json", arguments->json, "facts as JSON");
+    command.option("--device", arguments->device, "accepted everywhere; not used here");
+    command.option("--rays", arguments->rays, "accepted everywhere; not used here");
+    command.footer(
+        "Error: how far a level is from the finest one, both ways, in units of the mesh (sampled). Normals, UVs and colours count\n"
+        "as lengths: of the diagonal of the mesh, a 32nd for a difference of 1 between colours, a 3000th for one of 1 between\n"
+        "normals. Coverage: share of the screen.");
+    command.does(run, [arguments] { return buildLevels(*arguments); });
+}
+
+}  // namespace lodestir

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/commands/view.h>
+
+#include <framework/app/view/canvas.h>
+#include <framework/app/command_line.h>
+#include <framework/app/view/panels.h>
+#include <framework/app/view/self_report.h>
+#include <framework/core/log.h>
+
+#include <memory>
+
+namespace lodestir {
+namespace {
+
+struct ViewOptions {
+    SessionOptions session;
+    glm::uvec2 window{1440, 900};
+    Path out = "out", screenshot = "view.png", selfReport;
+    bool screenshotAtEnd = false;
+};
+
+/// Draws the window until it is closed; the renderer has a thread of its own.
+int showWindow(const ViewOptions& options) {
+    SessionOptions sessionOptions = options.session;
+    const auto frames = std::uint64_t(sessionOptions.changes.frames.value_or(0));
+    sessionOptions.changes.frames.reset();  // here it says when to quit
+    Window window(glm::ivec2(options.window), "Lodestir: " + sessionOptions.graph.filename().string());
+    const auto device = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.device, .windowExtensions = window.vulkanExtensions()});
+    Canvas canvas(*device, window);
+    PicturePainter painter(*device);
+    Viewport viewport;
+    SelfReport report(options.selfReport);
+    std::string failure;
+    {
+        RenderThread renderer(sessionOptions, device, frames, [] { Window::wake(); });
+        Panels panels(renderer, window, viewport, options.out, report.wanted());
+        using Clock = Window::Clock;
+        // On a CPU driver drawing the window takes time from rendering: what nobody waits for is drawn less often.
+        const auto pause = std::chrono::milliseconds(device->facts().type == "cpu" ? 80 : 12);
+        constexpr auto rest = std::chrono::milliseconds(30);
+        Clock::time_point drawn{};
+        std::shared_ptr<const ViewStatus> seen;
+        int settle = 3;  // drawings that are due: panels need a few to come to rest, but new input goes first
+        while (!window.shouldClose()) {
+            const Clock::time_point now = Clock::now(), due = settle > 0 ? drawn + rest : renderer.status() != seen ? drawn + pause : now + std::chrono::milliseconds(250);
+            const auto input = window.takeInput(std::max(0.0, std::chrono::duration<double>(due - now).count()));
+            const std::shared_ptr<const ViewStatus> status = renderer.status();
+            const auto since = Clock::now() - drawn;
+            if (!input && !(settle > 0 && since >= rest) && !(status != seen && since >= pause)) continue;
+            settle = input ? 2 : std::max(settle - 1, 0);
+            if (!status->failure.empty()) {
+                failure = status->failure;
+                break;
+            }
+            if (!canvas.begin()) continue;
+            seen = status;
+            const bool last = frames > 0 && status->framesDone >= frames;
+            const Rectangle area = panels.pictureArea(canvas.extent());
+            if (const auto moved = viewport.interact(area, status->picture.extent, status->camera)) renderer.post([key = *moved](ViewSession& s) { s.setCamera(key); });
+            panels.drawProbe(*status, painter.probe(), area);
+            panels.draw(*status);
+            const bool shows = status->picture.texels && area.size.x > 0 && area.size.y > 0;
+            const bool wished = panels.takeScreenshotWish() || (last && options.screenshotAtEnd);
+            canvas.end(
+                [&](gpu::Commands& commands) {
+                    if (shows) painter.prepare(commands, status->picture, panels.layout(), panels.look(), area, viewport.toImage(status->picture), viewport.pixelUnderPointer(), canvas.blueFirst());
+                },
+                [&](gpu::Commands& commands, VkImage image) {
+                    if (shows) painter.paint(commands, image);
+                },
+                wished ? options.screenshot : Path());
+            drawn = Clock::now();
+            if (input && seen->graph && report.wanted()) {
+                canvas.wait();
+                report.answered(*input);
+            }
+            report.write(*status, panels, viewport, area);
+            if (last) break;
+        }
+    }
+    if (!failure.empty()) throw Error(failure);
+    if (!device->validationMessages().empty())
+        throw Error(std::to_string(device->validationMessages().size()) + " validation messages; the first: " + device->validationMessages()[0]);
+    return 0;
+}
+
+}  // namespace
+
+void addView(CLI::App& app, std::function<int()>& run) {
+    auto options = std::make_shared<ViewOptions>();
+    Command command(app, "view", "Renders a graph into a window: any port, all parameters, a camera to move, live reload.");
+    options->session.addTo(command);
+    command.find("--frames").about("quit after this many frames");
+    command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, "size of the window, WIDTHxHEIGHT");
+    command.option("--out", options->out, "folder for what is saved").showDefault();
+    command.taken<std::string>(
+        "--screenshot",
+        [options](const std::string& v) {
+            options->screenshot = v;
+            options->screenshotAtEnd = true;
+        },
+        "PNG of the window, written by F12 and when --frames are done");
+    command.option("--self-report", options->selfReport, "JSON of what the viewer knows about itself, for tests");
+    command.does(run, [options] { return showWindow(*options); });
+}
+
+}  // namespace lodestir

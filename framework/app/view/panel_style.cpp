@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/view/panel_style.h>
+
+#include <framework/app/view/theme.h>
+
+namespace lodestir {
+
+void quietText(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().quiet);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+}
+
+void tip(const std::string& text) {
+    if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(380);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void heading(const char* text) {
+    ImGui::Dummy({0, 4});
+    ImGui::Separator();
+    ImGui::Dummy({0, 2});
+    quietText(text);
+}
+
+void rightText(const std::string& text) {
+    const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (space > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + space);
+    ImGui::TextUnformatted(text.c_str());
+}
+
+}  // namespace lodestir

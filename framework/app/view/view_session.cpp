@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: MIT
+#include <framework/app/view/view_session.h>
+
+#include <framework/app/dump.h>
+#include <framework/core/log.h>
+#include <framework/gpu/commands.h>
+#include <framework/gpu/include_closure.h>
+#include <framework/graph/struct_layout.h>
+#include <framework/image/exr.h>
+#include <framework/image/png.h>
+#include <framework/image/preview.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace lodestir {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
+
+/// Follows `value`, at once where it is far off.
+void smooth(double& mean, double value) { mean = mean <= 0 || value > 2 * mean || value < 0.5 * mean ? value : 0.8 * mean + 0.2 * value; }
+
+bool sameView(const CameraKey& a, const CameraKey& b) {
+    return a.position == b.position && a.target == b.target && a.up == b.up && a.fovy == b.fovy && a.height == b.height &&
+           a.aperture == b.aperture && a.focus == b.focus;
+}
+
+/// The fields of a struct that can be looked at, those of its own structs as "outer.inner".
+void collectFields(const std::vector<StructField>& fields, const std::string& prefix, std::size_t base, std::size_t stride, std::vector<PortField>& out) {
+    for (const StructField& field : fields) {
+        const std::string name = prefix + field.name;
+        if (const auto layout = layoutOf(field, base, stride)) out.push_back({name, field.type, *layout});
+        else if (field.count == 0 && !field.members.empty()) collectFields(field.members, name + ".", base + field.offset, stride, out);
+    }
+}
+
+}  // namespace
+
+ViewSession::ViewSession(SessionOptions options, std::shared_ptr<const gpu::Device> device, Publish publish)
+    : options_(std::move(options)), device_(std::move(device)), publish_(std::move(publish)) {}
+
+void ViewSession::tell() { publish_(status_); }
+
+/// Runs something that may find the user's files wrong; what it finds is shown, and nothing else happens.
+void ViewSession::attempt(const std::function<void()>& work) {
+    try {
+        work();
+        status_.problems.clear();
+    } catch (const Error& error) {
+        status_.problems.clear();
+        for (const Problem& problem : error.problems()) {
+            status_.problems.push_back(problem.text());
+            log::warn("{}", problem.text());
+        }
+    }
+}
+
+/// What was set by hand goes over what the file says, unless the file says something new about it.
+void ViewSession::adjust(Graph& graph) {
+    std::map<std::string, Value> given;
+    for (const GraphNode& node : graph.nodes)
+        for (Parameter* parameter : node.pass->parameters) {
+            const std::string name = node.name + "." + std::string(parameter->name);
+            given[name] = parameter->value;
+            const auto set = set_.find(name);
+            if (set == set_.end()) continue;
+            const auto before = given_.find(name);
+            const bool edited = before != given_.end() && before->second != parameter->value;
+            if (edited || set->second.index() != parameter->value.index()) set_.erase(set);
+            else parameter->value = set->second;
+        }
+    given_ = std::move(given);
+}
+
+void ViewSession::build() {
+    status_.busy = "building";
+    tell();
+    const auto given = given_;
+    attempt([&] {
+        try {
+            SessionParts parts{.device = device_, .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr, .adjust = [this](Graph& graph) { adjust(graph); }, .slice = 20};
+            parts.compiled = [this](std::size_t done, std::size_t all) {
+                status_.busy = fmt::format("compiling shader {} of {}", std::min(done + 1, all), all);
+                tell();
+            };
+            SessionOptions options = options_;
+            if (!shown_.empty()) options.dumps.push_back(shown_);
+            std::unique_ptr<Session> next;
+            try {
+                next = std::make_unique<Session>(options, parts);
+            } catch (const Error&) {
+                if (shown_.empty()) throw;
+                shown_.clear();  // a graph without the port that was looked at: shows its own
+                next = std::make_unique<Session>(options_, parts);
+            }
+            if (scenePath_ && next->sharedScene() != session_->sharedScene()) {
+                if (next->scene().file == session_->scene().file) scenePath_ = std::exchange(next->sharedScene()->camera, session_->scene().camera);
+                else scenePath_.reset();
+            }
+            status_.busy = "building";
+            if (session_) next->runner().setFrame(session_->runner().nextFrame());
+            const auto start = Clock::now();
+            const FrameReport report = next->runner().run();
+            session_ = std::move(next);
+            broken_ = false;
+            ++status_.builds;
+            stale_.clear();
+            rereadScene_ = false;
+            status_.framesStill = 0;
+            status_.wallMilliseconds = 0;
+            if (shown_.empty()) shown_ = session_->graph().nameOf(session_->graph().show);
+            describe();
+            took(report, millisecondsSince(start));
+        } catch (const Error&) {
+            given_ = given;
+            throw;
+        }
+    });
+    status_.busy.clear();
+    watchFiles();
+    tell();
+}
+
+bool ViewSession::wantsFrame() const { return session_ && !broken_ && (!status_.paused || stepping_); }
+
+void ViewSession::frame() {
+    stepping_ = false;
+    const auto start = Clock::now();
+    try {
+        const FrameReport report = session_->runner().run();
+        took(report, millisecondsSince(start));
+    } catch (const Error& error) {
+        broken_ = true;  // the frame is half done: only a new session goes on
+        attempt([&] { throw error; });
+    }
+    tell();
+}
+
+void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
+    ++status_.framesDone;
+    ++status_.framesStill;
+    status_.nextFrame = session_->runner().nextFrame();
+    if (status_.passes.size() != report.passes.size()) status_.passes.assign(report.passes.size(), {});
+    double device = 0;
+    for (std::size_t i = 0; i < report.passes.size(); ++i) {
+        const PassReport& pass = report.passes[i];
+        PassTime& time = status_.passes[i];
+        if (time.name != pass.name) time = {.name = pass.name};
+        time.ran = pass.ran;
+        time.setup = pass.setup;
+        if (pass.ran) smooth(time.milliseconds, pass.milliseconds);
+        time.rays = pass.rays;
+        if (!pass.setup) device += time.milliseconds;
+    }
+    status_.deviceMilliseconds = device;
+    smooth(status_.wallMilliseconds, wallMilliseconds);
+    const CameraKey camera = session_->scene().cameraAt(float(report.frame));
+    if (!sameView(camera, lastCamera_)) status_.framesStill = 1;
+    lastCamera_ = camera;
+    status_.camera = {camera, scenePath_.has_value()};
+    capture();
+}
+
+std::shared_ptr<gpu::Buffer> ViewSession::spareBuffer(std::size_t bytes) {
+    std::erase_if(buffers_, [&](const auto& buffer) { return buffer.use_count() == 1 && buffer->size() < bytes; });
+    for (const auto& buffer : buffers_)
+        if (buffer.use_count() == 1) return buffer;
+    buffers_.push_back(std::make_shared<gpu::Buffer>(*device_, bytes, gpu::Memory::device, "captured port"));
+    return buffers_.back();
+}
+
+void ViewSession::capture() {
+    const auto& ports = status_.graph->ports;
+    const auto port = std::ranges::find(ports, shown_, &PortInfo::name);
+    if (port == ports.end() || !port->runs || port->extent.x == 0) {
+        status_.picture = {};
+        return;
+    }
+    const std::shared_ptr<gpu::Buffer> buffer = spareBuffer(port->bytes);
+    gpu::runOnce(*device_, [&](gpu::Commands& commands) {
+        commands.barrier();
+        commands.copy(session_->runner().memoryOf(port->source), 0, *buffer, 0, port->bytes);
+    });
+    status_.picture = {.texels = buffer, .port = shown_, .extent = port->extent, .camera = lastCamera_, .frame = status_.nextFrame - 1, .number = ++pictures_};
+    status_.statistics.reset();
+    if (!statistics_) return;
+    std::vector<std::byte> copy;
+    std::span<const std::byte> memory(buffer->mapped(), port->bytes);
+    if (!buffer->mapped()) {
+        copy.resize(port->bytes);
+        gpu::readBuffer(*device_, *buffer, 0, copy);
+        memory = copy;
+    }
+    status_.statistics = statisticsOf(memory, std::size_t(port->extent.x) * port->extent.y, layout_, pick_);
+}
+
+PortInfo ViewSession::describePort(const Source& source) const {
+    const Graph& graph = session_->graph();
+    const Port& port = graph.port(source);
+    const glm::uvec2 size = session_->runner().size();
+    PortInfo info{.name = graph.nameOf(source), .doc = std::string(port.doc), .text = {}, .source = source, .fields = {}};
+    info.runs = session_->runner().plan().resourceOf(source.node, source.port) >= 0;
+    info.bytes = bytesOf(graph, source.node, source.port, size);
+    if (port.type.kind == PortType::Kind::image) {
+        info.extent = sizeOf(graph, source.node, source.port, size);
+        info.text = fmt::format("{} {}x{}", factsOf(port.format).name, info.extent.x, info.extent.y);
+        info.fields.push_back({"", std::string(factsOf(port.format).name), layoutOf(port.format)});
+        return info;
+    }
+    const std::uint32_t count = countOf(graph, source.node, source.port, size);
+    info.text = fmt::format("{}  {} x {} B", port.type.text(), count, port.type.size);
+    const std::uint32_t pixels = size.x * size.y;
+    if (pixels == 0 || count % pixels != 0 || count / pixels > 4) return info;
+    try {  // several elements a pixel lie side by side: the first is shown
+        const std::size_t stride = port.type.size * (count / pixels);
+        const Plugin& plugin = *graph.nodes[std::size_t(source.node)].plugin;
+        collectFields(structFields(port.type.name, Path(port.type.header), includeFolders(plugin), port.type.size), "", 0, stride, info.fields);
+        if (!info.fields.empty()) info.extent = size;
+    } catch (const Error&) {
+        info.fields.clear();  // a struct that only its own shaders understand: named, not shown
+    }
+    return info;
+}
+
+void ViewSession::describe() {
+    auto info = std::make_shared<GraphInfo>();
+    const Graph& graph = session_->graph();
+    info->file = graph.description.file;
+    info->about = graph.description.about;
+    info->scene = graph.description.scene.filename().string();
+    info->device = device_->facts().name;
+    info->rays = nameOf(session_->rays());
+    info->variants = graph.description.variants;
+    info->variant = options_.changes.variant.value_or("");
+    info->show = graph.nameOf(graph.show);
+    info->size = session_->runner().size();
+    info->memoryBytes = session_->runner().memoryBytes();
+    info->software = device_->facts().type == "cpu";
+    info->bounds = session_->scene().bounds();
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
+        const GraphNode& node = graph.nodes[n];
+        PassInfo pass{.name = node.name, .type = node.type, .doc = node.plugin->doc, .off = node.off, .parameters = {}, .given = {}};
+        pass.culled = session_->runner().plan().stepOf(int(n)) < 0;
+        for (const Parameter* parameter : node.pass->parameters) {
+            pass.parameters.push_back(*parameter);
+            pass.given.push_back(given_[node.name + "." + std::string(parameter->name)]);
+        }
+        info->passes.push_back(std::move(pass));
+        if (node.off) continue;
+        for (std::size_t p = 0; p < node.pass->ports.size(); ++p) {
+            const Port& port = *node.pass->ports[p];
+            if (port.isInput() || port.role == Port::Role::scratch || port.type.kind == PortType::Kind::handle) continue;
+            info->ports.push_back(describePort({int(n), int(p), false}));
+        }
+    }
+    status_.graph = std::move(info);
+}
+
+void ViewSession::watchFiles() {
+    std::set<Path> files{std::filesystem::absolute(options_.graph)};
+    if (session_) {
+        for (const Path& file : session_->runner().shaderFiles()) files.insert(file);
+        files.insert(session_->scene().file);
+        for (const GraphNode& node : session_->graph().nodes) {
+            if (!*node.plugin->shader) continue;
+            try {
+                const gpu::IncludeClosure closure(shaderOf(*node.plugin, node.plugin->shader), includeFolders(*node.plugin), {});
+                for (const Path& file : closure.files()) files.insert(file);
+            } catch (const Error&) {  // not there just now: noticed through the graph
+            }
+        }
+    }
+    for (const std::string& problem : status_.problems) {  // a file that kept a session from being built
+        const Path file = problem.substr(0, problem.find(':'));
+        std::error_code unknown;
+        if (std::filesystem::is_regular_file(file, unknown)) files.insert(file);
+    }
+    watch_.watch({files.begin(), files.end()});
+}
+
+void ViewSession::reloadChanged() {
+    const std::vector<Path> changed = watch_.changed();
+    if (changed.empty()) return;
+    const auto isShader = [&](const Path& file) { return file.extension() != ".json" && file != std::filesystem::absolute(options_.graph) && (!session_ || file != session_->scene().file); };
+    if (session_ && std::ranges::find(changed, session_->scene().file) != changed.end()) rereadScene_ = true;
+    if (!session_ || broken_ || !std::ranges::all_of(changed, isShader)) return build();
+
+    stale_.insert(stale_.end(), changed.begin(), changed.end());
+    status_.busy = "compiling shaders";
+    tell();
+    attempt([&] {
+        if (session_->runner().reloadShaders(stale_) > 0) {
+            session_->runner().reset();
+            status_.framesStill = 0;
+        }
+        ++status_.reloads;
+        stale_.clear();
+    });
+    status_.busy.clear();
+    watchFiles();
+    tell();
+}
+
+/// A frame is wanted even while paused.
+void ViewSession::changedByHand(bool restarts) {
+    if (restarts) status_.framesStill = 0;
+    stepping_ = true;
+    if (broken_) build();
+}
+
+void ViewSession::pause(bool paused) {
+    status_.paused = paused;
+    tell();
+}
+
+void ViewSession::step() { stepping_ = true; }
+
+void ViewSession::resetHistory() {
+    if (!session_) return;
+    session_->runner().reset();
+    changedByHand(true);
+}
+
+void ViewSession::setFrame(std::uint32_t frame) {
+    if (!session_) return;
+    session_->runner().setFrame(frame);
+    changedByHand(true);
+}
+
+void ViewSession::setCamera(const CameraKey& camera) {
+    if (!session_) return;
+    CameraPath& path = session_->sharedScene()->camera;
+    if (!scenePath_) scenePath_ = path;
+    path = {.keys = {camera}};
+    changedByHand(true);
+}
+
+void ViewSession::resetCamera() {
+    if (!session_ || !scenePath_) return;
+    session_->sharedScene()->camera = *scenePath_;
+    scenePath_.reset();
+    changedByHand(true);
+}
+
+void ViewSession::setParameter(const std::string& name, const Value& value) {
+    if (!session_) return;
+    const std::size_t dot = name.find('.');
+    const int node = session_->graph().find(name.substr(0, dot));
+    if (node < 0) return;
+    for (Parameter* parameter : session_->graph().nodes[std::size_t(node)].pass->parameters) {
+        if (parameter->name != name.substr(dot + 1) || parameter->value == value) continue;
+        if (value == given_[name]) set_.erase(name);
+        else set_[name] = value;
+        if (parameter->constant) return build();
+        parameter->value = value;
+        changedByHand(true);
+    }
+}
+
+void ViewSession::setVariant(const std::string& variant) {
+    options_.changes.variant = variant.empty() ? std::nullopt : std::optional(variant);
+    build();
+}
+
+void ViewSession::resize(glm::uvec2 size) {
+    options_.changes.size = size;
+    build();
+}
+
+void ViewSession::show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics) {
+    const bool other = port != shown_;
+    shown_ = port;
+    layout_ = layout;
+    pick_ = pick;
+    statistics_ = statistics;
+    if (!session_) return;
+    const auto found = std::ranges::find(status_.graph->ports, port, &PortInfo::name);
+    if (other && (found == status_.graph->ports.end() || !found->runs)) return build();
+    if (broken_) return;
+    capture();
+    tell();
+}
+
+void ViewSession::save(const Path& folder) {
+    if (!session_) return;
+    attempt([&] {
+        const Source source = findSource(session_->graph(), shown_);
+        const Path path = folder / fmt::format("{}.{}", shown_, status_.nextFrame - 1);
+        dumpPort(*session_, source, path);
+        const bool image = session_->graph().port(source).type.kind == PortType::Kind::image;
+        if (image) writePng(path.string() + ".png", preview(session_->runner().readImage(source)));
+        status_.note = fmt::format("wrote {}{}", path.string(), image ? ".exr and .png" : ".npy");
+        log::note("{}", status_.note);
+    });
+    tell();
+}
+
+void ViewSession::saveGraph(const Path& file) {
+    if (!session_) return;
+    attempt([&] {
+        writeFile(file, session_->graph().resolved().dump(2) + "\n");
+        status_.note = "wrote " + file.string();
+        log::note("{}", status_.note);
+    });
+    tell();
+}
+
+}  // namespace lodestir

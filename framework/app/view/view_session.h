@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What a viewer shows, kept running: a session whose files may change, with a camera and parameters set by hand. Used by one thread; no window.
+#pragma once
+#include <framework/app/session.h>
+#include <framework/app/view/view_state.h>
+#include <framework/core/file_watch.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+
+namespace lodestir {
+
+class ViewSession {
+public:
+    using Publish = std::function<void(const ViewStatus&)>;
+    /// `publish` is called after each frame and whenever something else is to be told.
+    ViewSession(SessionOptions options, std::shared_ptr<const gpu::Device> device, Publish publish);
+
+    /// Anew from the files; what ran before goes on until its successor has rendered a frame. Problems go to the status.
+    void build();
+    void frame();                     ///< the next one
+    bool wantsFrame() const;          ///< something runs, and isn't paused or broken
+    void reloadChanged();             ///< looks at the files and takes over what changed
+
+    void pause(bool paused);
+    void step();                      ///< one frame while paused
+    void resetHistory();
+    void setFrame(std::uint32_t frame);
+    void setCamera(const CameraKey& camera);
+    void resetCamera();               ///< to the scene's own path
+    void setParameter(const std::string& name, const Value& value);  ///< "pass.parameter"
+    void setVariant(const std::string& variant);                     ///< empty: none
+    void resize(glm::uvec2 size);
+    /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
+    void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
+    void save(const Path& folder);       ///< EXR and PNG of the shown image, .npy of a shown buffer
+    void saveGraph(const Path& file);    ///< with all that is set now
+
+private:
+    void adjust(Graph& graph);
+    void attempt(const std::function<void()>& work);
+    void took(const FrameReport& report, double wallMilliseconds);
+    void capture();
+    void describe();
+    void watchFiles();
+    void changedByHand(bool restarts);
+    void tell();
+    PortInfo describePort(const Source& source) const;
+    std::shared_ptr<gpu::Buffer> spareBuffer(std::size_t bytes);
+
+    SessionOptions options_;
+    std::shared_ptr<const gpu::Device> device_;
+    Publish publish_;
+    std::unique_ptr<Session> session_;
+    ViewStatus status_;
+    FileWatch watch_;
+    std::vector<Path> stale_;                  ///< changed since shaders were last taken over
+    std::map<std::string, Value> set_, given_; ///< by hand; by the graph file
+    std::optional<CameraPath> scenePath_;      ///< while the camera is the viewer's own: the scene's
+    std::string shown_;
+    TexelLayout layout_;
+    std::uint32_t pick_ = 0;
+    bool statistics_ = false, broken_ = false, stepping_ = false, rereadScene_ = false;
+    std::uint64_t pictures_ = 0;
+    CameraKey lastCamera_;
+    std::vector<std::shared_ptr<gpu::Buffer>> buffers_;
+};
+
+}  // namespace lodestir

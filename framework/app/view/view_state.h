@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// What the renderer of a viewer tells its window: plain values, handed over whole, so that neither thread touches what the other works on.
+#pragma once
+#include <framework/app/view/texel_values.h>
+#include <framework/gpu/buffer.h>
+#include <framework/graph/graph.h>
+#include <framework/graph/runner.h>
+#include <framework/scene/scene.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lodestir {
+
+/// Something of a port that makes a picture: an image (no name), or a field of a struct that a buffer has for each pixel.
+struct PortField {
+    std::string name, type;
+    TexelLayout layout;
+};
+
+struct PortInfo {
+    std::string name;  ///< "pass.port"
+    std::string doc, text;  ///< text: "rgba32f 960x540", "Buffer<Reservoir> 518400 x 64 B"
+    Source source;
+    bool runs = false;         ///< false: its pass isn't needed for what is shown, and would be built in when chosen
+    glm::uvec2 extent{0};      ///< of the picture; {0, 0}: there is none
+    std::size_t bytes = 0;
+    std::vector<PortField> fields;
+};
+
+struct PassInfo {
+    std::string name, type, doc;
+    bool off = false, culled = false;
+    std::vector<Parameter> parameters;  ///< as they are now
+    std::vector<Value> given;           ///< what the graph file (or the command line) says
+};
+
+/// What stays the same until a session is built anew.
+struct GraphInfo {
+    std::string about, scene, device, rays;
+    Path file;
+    std::vector<std::string> variants;
+    std::string variant;  ///< empty: none
+    std::string show;     ///< "pass.port" that the graph shows
+    glm::uvec2 size{0};
+    std::size_t memoryBytes = 0;
+    bool software = false;  ///< the device is the CPU
+    std::array<glm::vec3, 2> bounds{};
+    std::vector<PassInfo> passes;
+    std::vector<PortInfo> ports;
+};
+
+/// A port as it was after a frame.
+struct Picture {
+    std::shared_ptr<const gpu::Buffer> texels;
+    std::string port;       ///< name
+    glm::uvec2 extent{0};
+    CameraKey camera;       ///< it was taken with
+    std::uint32_t frame = 0;
+    std::uint64_t number = 0;  ///< tells pictures apart
+};
+
+/// The camera, and whether it is the viewer's own or the scene's.
+struct CameraState {
+    CameraKey key;
+    bool own = false;
+};
+
+struct PassTime {
+    std::string name;
+    bool ran = false, setup = false;
+    double milliseconds = 0;  ///< smoothed over some frames
+    RayCounts rays{};         ///< of the last frame
+};
+
+struct ViewStatus {
+    std::shared_ptr<const GraphInfo> graph;  ///< nullptr: nothing was ever built
+    std::vector<PassTime> passes;
+    double deviceMilliseconds = 0, wallMilliseconds = 0;  ///< of a frame, smoothed
+    std::uint32_t nextFrame = 0;
+    std::uint64_t framesDone = 0;   ///< since the program began
+    std::uint32_t framesStill = 0;  ///< since anything was changed
+    std::uint64_t builds = 0, reloads = 0;  ///< sessions built, sets of shaders taken over
+    Picture picture;
+    CameraState camera;
+    bool paused = false;
+    std::string busy;                   ///< what takes long just now; empty: nothing
+    std::vector<std::string> problems;  ///< "file:line:column: what; hint"
+    std::optional<Statistics> statistics;
+    std::string note;                   ///< what was done last: "wrote out/display.12.exr"
+    std::string failure;                ///< the renderer is finished, and why
+};
+
+}  // namespace lodestir

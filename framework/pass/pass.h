@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// All that the author of a technique has to know. A pass is a struct whose members are its ports and parameters:
+//
+//     struct Bloom final : Pass {
+//         In<Image>    color{this, "color", "scene-linear radiance"};
+//         Out<Image>   glow{this, "glow", "blurred highlights", Format::rgba16f, {.scale = 0.5f}};
+//         Param<float> knee{this, "knee", 1.0f, {0, 10}, "luminance below which nothing blooms"};
+//     };
+//     LODESTIR_PASS(Bloom, "bloom.comp", "Gaussian of the highlights, at half resolution.")
+//
+// The shader starts with #include "pass.glsl", which is made from this declaration.
+#pragma once
+#include <framework/core/error.h>  // what execute() throws
+#include <framework/pass/parameter.h>
+#include <framework/pass/port.h>
+#include <framework/shaders/trace/ray.h>
+#include <framework/shaders/world/world.h>
+
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace lodestir {
+
+struct Scene;
+namespace gpu {
+class Device;
+}
+
+/// When a pass runs: every frame, or only when an input's content or a parameter changed (its time then counts as set-up).
+enum class Cadence : std::uint8_t { everyFrame, onChange };
+
+/// What a pass can do while it executes.
+class LODESTIR_API Frame {
+public:
+    virtual ~Frame() = default;
+    virtual std::uint32_t index() const = 0;          ///< frame number, from 0
+    virtual glm::uvec2 size() const = 0;              ///< of the frame, pixels
+    virtual bool historyValid() const = 0;            ///< false at start and after resize, cut and reset
+    virtual glm::uvec2 sizeOf(const Port& port) const = 0;      ///< of an image, pixels
+    virtual std::uint32_t countOf(const Port& port) const = 0;  ///< elements of a buffer
+    virtual bool isBound(const Port& port) const = 0;
+    virtual std::span<const std::byte> valueOf(const Port& port) const = 0;  ///< the struct that a wired handle input holds
+    /// Runs a shader of this pass's folder once for each element of `extent` (pixels, or {n, 1}). A shader that includes
+    /// "trace/driver.glsl" is spread as its tracing body likes best. `arguments`: up to 4 words, argument(i) in the shader.
+    /// Dispatches of one pass see what earlier ones wrote.
+    virtual void dispatch(std::string_view shader, glm::uvec2 extent, std::initializer_list<std::uint32_t> arguments = {}) = 0;
+    /// Fills a port this pass makes with a 32-bit word.
+    virtual void fill(const Port& port, std::uint32_t word) = 0;
+    /// Fills a buffer or image this pass makes with `bytes` from the CPU (at most its size).
+    virtual void upload(const Port& port, std::span<const std::byte> bytes) = 0;
+    /// Gives a handle output its struct; `keep` owns the memory that the struct points to and lives as long as the value is used (also as @prev).
+    virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) = 0;
+    virtual const gpu::Device& device() const = 0;
+    virtual const Scene& scene() const = 0;
+    virtual bool usesRayQuery() const = 0;  ///< rays are traced by the driver; every World that is provided gets its top level after the pass
+};
+
+class LODESTIR_API Pass {
+public:
+    std::vector<Port*> ports;            ///< filled by the members of the derived struct, in order of declaration
+    std::vector<Parameter*> parameters;
+    Cadence cadence = Cadence::everyFrame;
+    bool restartOnChange = false;        ///< State is cleared whenever any parameter of the graph changes (accumulation)
+    struct Bypass {
+        const Port* in;
+        const Port* out;
+    };
+    std::vector<Bypass> bypasses;        ///< with "off": true each out is its in; a pass without any can't be off
+
+    Pass();
+    Pass(const Pass&) = delete;
+    Pass& operator=(const Pass&) = delete;
+    virtual ~Pass();                     // rule: constructing a pass never touches the GPU
+    /// Default: dispatches the shader of LODESTIR_PASS over the first output: an image's pixels, the frame's pixels where it is a buffer
+    /// with elements per pixel, else the buffer's elements.
+    virtual void execute(Frame& frame);
+    std::string_view shader;             ///< set from LODESTIR_PASS
+};
+
+/// Declares that a pass with "off": true hands `in` through as `out`.
+struct LODESTIR_API PassThrough {
+    PassThrough(Pass* pass, const Port& in, const Port& out) { pass->bypasses.push_back({&in, &out}); }
+};
+
+/// One pass of a plugin library, linked into the library's own list.
+struct Plugin {
+    const char* abi;     ///< of the framework it was built against
+    const char* type;    ///< name of the struct
+    const char* shader;
+    const char* doc;
+    const char* source;  ///< the .cpp, so that shaders are found beside it
+    Pass* (*create)();
+    const Plugin* next;
+};
+
+/// The passes of the library this is compiled into. Hidden, so that two libraries never share one list.
+inline __attribute__((visibility("hidden"))) const Plugin* pluginList = nullptr;
+
+}  // namespace lodestir
+
+/// What the framework looks up in a pass library.
+extern "C" LODESTIR_API __attribute__((used)) inline const lodestir::Plugin* lodestirPlugins() {
+    return lodestir::pluginList;
+}
+
+/// Exports a pass: its struct, the shader that execute() runs by default, and one sentence on what it does.
+#define LODESTIR_PASS(T, shaderFile, sentence)                                                                        \
+    namespace {                                                                                                       \
+    const lodestir::Plugin plugin##T{LODESTIR_ABI, #T,      shaderFile, sentence, __FILE__,                           \
+                                     []() -> lodestir::Pass* { return new T; }, lodestir::pluginList};                \
+    [[maybe_unused]] const bool listed##T = (lodestir::pluginList = &plugin##T, true);                                \
+    }

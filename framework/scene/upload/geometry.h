@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// All meshes of a scene as traversal and shading read them: in arrays, level after level, mesh after mesh.
+#pragma once
+#include <framework/scene/bvh/bvh.h>
+#include <framework/scene/deformation.h>
+#include <framework/scene/upload/light_list.h>
+
+#include <vector>
+
+namespace lodestir {
+
+struct Geometry {
+    std::vector<BvhNode> nodes;
+    std::vector<BvhTriangle> triangles;         ///< and one more, for loads that reach behind the last
+    std::vector<std::uint32_t> roots;           ///< of mesh m at level l: m * LEVELS + l; levels that a mesh does not have repeat its coarsest
+    std::vector<LevelRecord> levels;            ///< the same
+    std::vector<MeshRecord> meshes;
+    std::vector<PrimitiveRecord> primitives;    ///< in the order of `triangles`
+    std::vector<std::uint32_t> emitterIndices;  ///< of each primitive, see World.emitters
+    std::vector<glm::vec3> positions;
+    std::vector<VertexRecord> vertices;
+    std::vector<MeshEmitters> emitters;         ///< of each mesh
+    std::vector<Box> bounds;                    ///< of each mesh, over its levels
+    std::vector<BvhGrid> grids;                 ///< of each mesh
+    std::vector<bool> vertexColor;              ///< of each material: some triangle with it has vertex colours
+
+    /// The scene's meshes as their files have them. BVHs come from the cache where they were built before.
+    explicit Geometry(const Scene& scene);
+    /// Moves the vertices of the meshes that deform, and fits boxes, spheres and normals to them.
+    void pose(const Scene& scene, const Pose& pose);
+    /// Positions of the finest level of a mesh.
+    std::span<const glm::vec3> finestPositions(std::size_t mesh) const;
+
+private:
+    struct Place {  ///< of a level of a mesh in the arrays
+        std::size_t firstVertex = 0, vertices = 0;
+        BvhRange bvh;
+    };
+    void addLevel(const Scene& scene, std::size_t mesh, std::size_t level);
+    std::vector<std::vector<Place>> places_;  ///< of each level of each mesh
+};
+
+}  // namespace lodestir

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include <framework/scene/upload/world.h>
+
+#include <framework/scene/upload/alias_table.h>
+#include <framework/scene/axes.h>
+#include <framework/scene/upload/environment_table.h>
+#include <framework/scene/level_policy.h>
+#include <framework/scene/upload/light_list.h>
+#include <framework/scene/upload/mipmaps.h>
+#include <framework/scene/panes.h>
+
+#include <glm/gtc/matrix_access.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace lodestir {
+namespace {
+
+TextureSlotRecord slotRecord(const TextureSlot& slot) {
+    const float c = std::cos(slot.rotation), s = std::sin(slot.rotation);
+    return {.texture = slot.texture,
+            .uvSet = slot.uvSet,
+            .row0 = {c * slot.scale.x, s * slot.scale.y, slot.offset.x},
+            .row1 = {-s * slot.scale.x, c * slot.scale.y, slot.offset.y}};
+}
+
+LayersRecord layersRecord(const MaterialLayers& l) {
+    LayersRecord r{.specularColor = l.specularColor,
+                   .specular = l.specular,
+                   .sheenColor = l.sheenColor,
+                   .sheenRoughness = l.sheenRoughness,
+                   .anisotropyDirection = {std::cos(l.anisotropyRotation), std::sin(l.anisotropyRotation)},
+                   .anisotropy = l.anisotropy,
+                   .coat = l.coat,
+                   .coatRoughness = l.coatRoughness,
+                   .coatNormalScale = l.coatNormalScale};
+    r.maps[LAYER_SPECULAR] = slotRecord(l.specularMap);
+    r.maps[LAYER_SPECULAR_COLOR] = slotRecord(l.specularColorMap);
+    r.maps[LAYER_SHEEN_COLOR] = slotRecord(l.sheenColorMap);
+    r.maps[LAYER_SHEEN_ROUGHNESS] = slotRecord(l.sheenRoughnessMap);
+    r.maps[LAYER_ANISOTROPY] = slotRecord(l.anisotropyMap);
+    r.maps[LAYER_COAT] = slotRecord(l.coatMap);
+    r.maps[LAYER_COAT_ROUGHNESS] = slotRecord(l.coatRoughnessMap);
+    r.maps[LAYER_COAT_NORMAL] = slotRecord(l.coatNormalMap);
+    return r;
+}
+
+MaterialRecord materialRecord(const Material& m, bool vertexColor) {
+    MaterialRecord r{};
+    r.baseColor = m.baseColor;
+    r.emission = m.emission;
+    r.metallic = m.metallic;
+    r.roughness = m.roughness;
+    r.normalScale = m.normalScale;
+    r.transmission = m.transmission;
+    r.ior = m.ior;
+    // KHR_materials_volume: transmittance over the attenuation distance is the attenuation colour (Beer-Lambert).
+    if (m.attenuationDistance > 0) r.attenuation = -glm::log(glm::max(m.attenuationColor, glm::vec3(1e-6f))) / m.attenuationDistance;
+    r.alphaCutoff = m.alphaCutoff;
+    r.flags = (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0) | (m.alphaMode == AlphaMode::mask ? MATERIAL_MASK : 0) |
+              (m.alphaMode == AlphaMode::blend ? MATERIAL_BLEND : 0) | (m.solid ? MATERIAL_SOLID : 0) |
+              (m.emission != glm::vec3(0) ? MATERIAL_EMISSIVE : 0) | (vertexColor ? MATERIAL_VERTEX_COLOR : 0) |
+              (m.unlit ? MATERIAL_UNLIT : 0) | (isPane(m) ? MATERIAL_PANE : 0);
+    r.layers = NONE;
+    r.baseColorMap = slotRecord(m.baseColorMap);
+    r.metallicRoughnessMap = slotRecord(m.metallicRoughnessMap);
+    r.normalMap = slotRecord(m.normalMap);
+    r.emissiveMap = slotRecord(m.emissiveMap);
+    r.transmissionMap = slotRecord(m.transmissionMap);
+    return r;
+}
+
+std::uint32_t textureFlags(const Texture& t) {
+    const auto wrap = [](Wrap w, std::uint32_t clamp, std::uint32_t mirror) { return w == Wrap::clamp ? clamp : w == Wrap::mirror ? mirror : 0u; };
+    return (t.srgb ? TEXTURE_SRGB : 0) | (t.nearest ? TEXTURE_NEAREST : 0) | wrap(t.wrapU, TEXTURE_CLAMP_U, TEXTURE_MIRROR_U) |
+           wrap(t.wrapV, TEXTURE_CLAMP_V, TEXTURE_MIRROR_V);
+}
+
+void putRows(const glm::mat4& matrix, vec4* rows) {
+    for (int r = 0; r < 3; ++r) rows[r] = glm::row(matrix, r);
+}
+
+/// Does the matrix leave a mesh its volume? Those that leave it an area have a shaper (scene/flattening.h); of others there is nothing to be seen.
+bool isInvertible(const glm::mat4& matrix) {
+    const double volume = glm::determinant(glm::dmat3(matrix));
+    return volume != 0 && std::isfinite(volume);
+}
+
+CameraRecord cameraRecord(const CameraKey& camera, glm::uvec2 size) {
+    CameraRecord record{};
+    const ViewAxes axes = viewAxes(camera);
+    const bool orthographic = camera.height > 0;
+    const float height = orthographic ? 0.5f * camera.height : std::tan(0.5f * camera.fovy);
+    record.position = camera.position;
+    record.aperture = orthographic ? 0 : camera.aperture;
+    record.right = axes.right * (height * float(size.x) / float(size.y));
+    record.up = axes.up * height;
+    record.forward = axes.forward;
+    record.orthographic = orthographic;
+    record.focus = camera.focus;
+    record.pixelAngle = 2 * height / float(size.y);
+    return record;
+}
+
+}  // namespace
+
+/// Positions, normals and boxes on the GPU.
+struct WorldBuilder::Shapes {
+    gpu::Buffer triangles, meshes, positions, vertices;
+};
+
+/// What never changes.
+struct WorldBuilder::Fixed {
+    gpu::Buffer roots, levels, primitives, emitterIndices, materials, layers, textures, texels, environment;
+    std::size_t bytes = 0;
+};
+
+/// What follows the pose of one frame.
+struct WorldBuilder::Moving {
+    std::shared_ptr<const Shapes> shapes;
+    std::shared_ptr<const BottomLevels::Table> bottomLevels;
+    gpu::Buffer nodes, traceInstances, instances, lights;
+    glm::vec3 gridBase{0}, gridScale{1}, center{0};
+    std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
+    float radius = 1;
+};
+
+/// Of each instance.
+struct WorldBuilder::Levels {
+    std::vector<std::uint32_t> values;
+    gpu::Buffer buffer;
+};
+
+WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool rayQuery)
+    : device_(device), scene_(scene), geometry_(std::make_unique<Geometry>(scene)) {
+    auto fixed = std::make_shared<Fixed>();
+    std::vector<MaterialRecord> materials;
+    std::vector<LayersRecord> layers;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        materials.push_back(materialRecord(scene.materials[i], geometry_->vertexColor[i]));
+        if (!scene.materials[i].layers) continue;
+        materials.back().layers = std::uint32_t(layers.size());
+        layers.push_back(layersRecord(*scene.materials[i].layers));
+    }
+    std::vector<std::uint32_t> texels;
+    std::vector<TextureRecord> textures;
+    for (const Texture& texture : scene.textures) {
+        const std::size_t first = texels.size();
+        const std::uint32_t mips = appendMipmaps(texture, texels);
+        textures.push_back({first * 4, std::uint32_t(texture.width), std::uint32_t(texture.height), mips, textureFlags(texture)});
+    }
+
+    const auto upload = [&]<class T>(const std::vector<T>& values, const char* name) {
+        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const T>(values), name);
+        fixed->bytes += buffer.size();
+        return buffer;
+    };
+    fixed->roots = upload(geometry_->roots, "roots");
+    fixed->levels = upload(geometry_->levels, "mesh levels");
+    fixed->primitives = upload(geometry_->primitives, "primitives");
+    fixed->emitterIndices = upload(geometry_->emitterIndices, "emitters");
+    fixed->materials = upload(materials, "materials");
+    fixed->layers = upload(layers, "material layers");
+    fixed->texels = upload(texels, "texels");
+    for (TextureRecord& texture : textures) texture.texels += fixed->texels.address();
+    fixed->textures = upload(textures, "textures");
+    fixed->environment = upload(environmentTable(scene.environment), "environment");
+    fixed_ = std::move(fixed);
+    if (!scene.deforms()) shapes_ = uploadShapes();
+    if (rayQuery) bottomLevels_ = std::make_unique<BottomLevels>(device, *geometry_);
+}
+
+std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
+    auto shapes = std::make_shared<Shapes>();
+    shapes->triangles = gpu::makeBuffer(device_, std::span<const BvhTriangle>(geometry_->triangles), "triangles");
+    shapes->meshes = gpu::makeBuffer(device_, std::span<const MeshRecord>(geometry_->meshes), "meshes");
+    std::vector<glm::vec4> positions;
+    positions.reserve(geometry_->positions.size());
+    for (const glm::vec3& p : geometry_->positions) positions.emplace_back(p, 0);
+    shapes->positions = gpu::makeBuffer(device_, std::span<const glm::vec4>(positions), "positions");
+    shapes->vertices = gpu::makeBuffer(device_, std::span<const VertexRecord>(geometry_->vertices), "vertices");
+    return shapes;
+}
+
+WorldBuilder::~WorldBuilder() = default;
+
+std::size_t WorldBuilder::memoryBytes() const {
+    const Geometry& g = *geometry_;
+    const auto bytes = [](const auto&... lists) { return ((lists.size() * sizeof(lists[0])) + ...); };
+    return fixed_->bytes + bytes(g.nodes, g.triangles, g.meshes, g.positions, g.vertices);
+}
+
+std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose& pose) {
+    auto moving = std::make_shared<Moving>();
+    if (scene_.deforms()) geometry_->pose(scene_, pose);
+    moving->shapes = shapes_ ? shapes_ : uploadShapes();
+    if (bottomLevels_ && (scene_.deforms() || !moving_))
+        moving->bottomLevels = bottomLevels_->build(scene_, *geometry_, moving->shapes->positions.address());
+    else if (moving_)
+        moving->bottomLevels = moving_->bottomLevels;
+    std::vector<Box> boxes;
+    std::vector<TraceInstance> traced;
+    std::vector<InstanceRecord> records;
+    Box all;
+    for (const Instance& instance : scene_.instances) {
+        const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose.nodes);
+        InstanceRecord record{};
+        record.mesh = instance.mesh;
+        putRows(toWorld, record.toWorld);
+        if (!isInvertible(toWorld)) {
+            record.flags = INSTANCE_HIDDEN;
+            boxes.emplace_back();
+            traced.push_back({.mesh = instance.mesh});
+            records.push_back(record);
+            continue;
+        }
+        boxes.push_back(transformed(geometry_->bounds[instance.mesh], toWorld));
+        all.add(boxes.back());
+        traced.push_back(traceInstance(instance.mesh, geometry_->grids[instance.mesh], toWorld));
+        record.rounding = traceRounding(toWorld);
+        const std::vector<glm::mat4> joints = jointMatrices(scene_, scene_.meshes[instance.mesh], pose.nodes);
+        record.flags = glm::determinant(glm::mat3(joints.empty() ? toWorld : joints[0])) < 0 ? INSTANCE_MIRRORED : 0;
+        records.push_back(record);
+    }
+    if (!all.isEmpty()) {
+        moving->center = 0.5f * (all.low + all.high);
+        moving->radius = std::max(0.5f * glm::length(all.high - all.low), 1e-6f);
+    }
+    std::vector<std::span<const glm::vec3>> positions;
+    for (std::size_t m = 0; m < scene_.meshes.size(); ++m) positions.push_back(geometry_->finestPositions(m));
+    const LightList lights = listLights(scene_, geometry_->emitters, positions, pose.nodes, moving->radius);
+    for (std::size_t i = 0; i < records.size(); ++i) records[i].firstLight = lights.firstLight[i];
+
+    const Bvh top = buildTopLevel(boxes);
+    std::vector<BvhNode> nodes = geometry_->nodes;
+    moving->gridBase = top.gridBase;
+    moving->gridScale = top.gridScale;
+    moving->topRoot = top.root == bvh_ref::empty ? top.root : appendNodes(top, nodes, 0);
+    moving->nodes = gpu::makeBuffer(device_, std::span<const BvhNode>(nodes), "nodes");
+    moving->traceInstances = gpu::makeBuffer(device_, std::span<const TraceInstance>(traced), "trace instances");
+    moving->instances = gpu::makeBuffer(device_, std::span<const InstanceRecord>(records), "instances");
+    moving->lights = gpu::makeBuffer(device_, std::span<const LightRecord>(lights.lights), "lights");
+    moving->lightCount = std::uint32_t(lights.lights.size());
+    moving->environmentLight = lights.environmentLight;
+    return moving;
+}
+
+FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
+    Pose pose = poseAt(scene_, frame);
+    if (!moving_ || pose != pose_) {
+        moving_ = makeMoving(pose);
+        pose_ = std::move(pose);
+    }
+    std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
+    if (!levels_ || levels != levels_->values) {
+        std::vector<std::uint32_t> marked = levels;
+        marked.push_back(1);  // they differ from those before: made anew only then
+        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(marked), "levels");
+        levels_ = std::make_shared<const Levels>(Levels{std::move(levels), std::move(buffer)});
+    }
+    World w{};
+    w.nodes = moving_->nodes.address();
+    w.triangles = moving_->shapes->triangles.address();
+    w.traceInstances = moving_->traceInstances.address();
+    w.roots = fixed_->roots.address();
+    w.levels = levels_->buffer.address();
+    w.bottomLevels = moving_->bottomLevels ? moving_->bottomLevels->addresses.address() : 0;
+    w.gridBase = moving_->gridBase;
+    w.gridScale = moving_->gridScale;
+    w.topRoot = moving_->topRoot;
+    w.instanceCount = std::uint32_t(scene_.instances.size());
+    w.instances = moving_->instances.address();
+    w.primitives = fixed_->primitives.address();
+    w.meshLevels = fixed_->levels.address();
+    w.meshes = moving_->shapes->meshes.address();
+    w.emitters = fixed_->emitterIndices.address();
+    w.positions = moving_->shapes->positions.address();
+    w.vertices = moving_->shapes->vertices.address();
+    w.materials = fixed_->materials.address();
+    w.layers = fixed_->layers.address();
+    w.textures = fixed_->textures.address();
+    w.lights = moving_->lights.address();
+    w.environment = fixed_->environment.address();
+    w.environmentSize = {scene_.environment.width, scene_.environment.height};
+    w.environmentRotation = scene_.environment.rotation;
+    w.environmentLight = moving_->environmentLight;
+    w.lightCount = moving_->lightCount;
+    w.sceneRadius = moving_->radius;
+    w.sceneCenter = moving_->center;
+    w.camera = cameraRecord(scene_.cameraAt(frame), size);
+    struct Keep {
+        std::shared_ptr<const Fixed> fixed;
+        std::shared_ptr<const Moving> moving;
+        std::shared_ptr<const Levels> levels;
+    };
+    return {w, std::make_shared<Keep>(Keep{fixed_, moving_, levels_})};
+}
+
+}  // namespace lodestir

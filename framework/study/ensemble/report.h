@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// What is said of an ensemble study: a table for terminals, and report.html.
+#pragma once
+#include <framework/study/ensemble/results.h>
+
+#include <string>
+
+namespace lodestir {
+
+std::string ensembleText(const Study& study, const EnsembleSummary& summary);
+std::string ensembleHtml(const Study& study, const EnsembleSummary& summary);
+
+}  // namespace lodestir

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <framework/core/log.h>
+#include <framework/image/exr.h>
+#include <framework/image/png.h>
+#include <framework/study/ensemble/images.h>
+#include <framework/study/ensemble/report.h>
+#include <framework/study/ensemble/study.h>
+#include <framework/study/results.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace lodestir {
+namespace {
+
+/// Letters, digits and some signs; the rest becomes "_".
+std::string fileName(std::string text) {
+    for (char& c : text)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+    return text;
+}
+
+std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study& study, const EnsembleChunk& chunk, const std::string& name,
+                                 const Path& images) {
+    std::vector<EnsembleRow> rows;
+    std::vector<ChunkFrame> frames = runs.render(chunk);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        keepChunkImage(images, name, study.measure[i], frames[i].image, chunk.count);
+        rows.push_back({.run = name,
+                        .scene = study.scenes[chunk.scene].name,
+                        .technique = chunk.technique ? study.techniques[*chunk.technique].name : "",
+                        .knobs = knobJson(chunk.knobs),
+                        .offset = study.measure[i],
+                        .first = chunk.first,
+                        .means = std::move(frames[i].means),
+                        .milliseconds = frames[i].milliseconds,
+                        .rays = frames[i].rays,
+                        .device = stage.device().name + ", " + std::string(nameOf(stage.rays()))});
+    }
+    return rows;
+}
+
+/// The mean of the runs, and a map of where it isn't the reference's; the reference's own mean beside them.
+void writeImages(const Study& study, const EnsembleCell& cell, const Path& chunks, const Path& folder) {
+    constexpr double top = 5;  // sigmas of full colour
+    const EnsembleImage runs = joinChunkImages(chunks, cell.chunks, cell.offset),
+                        reference = joinChunkImages(chunks, cell.referenceChunks, cell.offset);
+    const std::string scene = study.scenes[cell.scene].name;
+    const std::string name = fileName(fmt::format("{}.{}.{}", scene, labelOf(study, cell), cell.offset));
+    writeExr(folder / (name + ".exr"), firstChannels(runs.image, 3));
+    writeExr(folder / fileName(fmt::format("{}.reference.{}.exr", scene, cell.offset)), firstChannels(reference.image, 3));
+    writePng(folder / (name + ".sigmas.png"), divergingMap(sigmaMap(runs, reference), top));
+}
+
+}  // namespace
+
+EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard,
+                            const std::function<bool()>& stops) {
+    EnsembleStage runs(stage, study);
+    const std::vector<EnsembleChunk> chunks = expandChunks(study);
+    std::vector<std::string> names;
+    for (const EnsembleChunk& chunk : chunks) names.push_back(runs.nameOf(chunk));
+    const std::set<std::string> finished = finishedChunks(study, readEnsembleRows(out));
+    std::vector<std::size_t> todo;
+    for (std::size_t i = 0; i < chunks.size(); ++i)
+        if (shard.holds(i) && !finished.contains(names[i])) todo.push_back(i);
+
+    if (!todo.empty()) {
+        log::note("{} of {} chunks of runs to make on {}", todo.size(), chunks.size(), stage.device().name);
+        ResultFile results(file);
+        log::Progress progress("chunks of runs", todo.size());
+        for (const std::size_t i : todo) {
+            if (stops()) break;
+            std::vector<nlohmann::ordered_json> lines;
+            for (const EnsembleRow& row : measure(runs, stage, study, chunks[i], names[i], out / "chunks")) lines.push_back(toJson(row));
+            results.addLines(lines);
+            progress.advance();
+        }
+    }
+    EnsembleSummary summary = summarizeEnsemble(study, chunks, names, readEnsembleRows(out));
+    for (const EnsembleCell& cell : summary.cells)
+        if (cell.complete) writeImages(study, cell, out / "chunks", out / "images");
+    writeFile(out / "report.html", ensembleHtml(study, summary));
+    return summary;
+}
+
+}  // namespace lodestir

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include <framework/image/temporal.h>
+#include <framework/study/report/chart.h>
+#include <framework/study/error/halves.h>
+#include <framework/study/report/page.h>
+#include <framework/study/report/report.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lodestir {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string list(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+    return text;
+}
+
+std::string estimateHtml(const Estimate& e) {
+    if (std::isnan(e.halfWidth)) return fmt::format("{:.4g}", e.mean);
+    return fmt::format("{:.4g} <span class=\"pm\">± {:.2g}</span>", e.mean, e.halfWidth);
+}
+
+/// A measure as an axis has it, with its unit.
+std::string axisName(const Measure& measure) {
+    const std::string& metric = measure.metric;
+    if (metric == "mse") return measure.name() + ", radiance²";
+    if (metric == "rmse" || metric == "mae") return measure.name() + ", radiance";
+    if (metric == "mape") return measure.name() + ", %";
+    return measure.name() + (metric == "psnr" ? ", dB" : "");
+}
+
+class Report {
+public:
+    Report(const Study& study, const Summary& summary) : study_(study), summary_(summary), pixels_(double(study.size.x) * study.size.y) {
+        for (const std::string& device : summary.devices) device_ += (device_.empty() ? "" : " and ") + device;
+        // The frame that charts without a frame axis show: the event's own, else the last.
+        const bool hasEvent = std::ranges::find(study.measure, 0) != study.measure.end();
+        shown_ = hasEvent ? 0 : study.measure.back();
+    }
+
+    std::string page() const {
+        std::string html = conditions();
+        for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene) html += sceneSection(scene);
+        return pageHtml(study_.file.stem().string(), study_.about, html);
+    }
+
+private:
+    std::string conditions() const {
+        std::string html = fmt::format(
+            "<p class=\"note\">{} × {} pixels, {} seeds, measured on {}. Times are the device's own and medians over seeds (bars: fastest "
+            "to slowest), errors are means over "
+            "seeds with 95 % intervals of Student's t. References have {} samples a pixel",
+            study_.size.x, study_.size.y, study_.seeds.size(), escapeHtml(device_.empty() ? "no device yet" : device_),
+            study_.referenceSamples);
+        std::vector<std::string> clean, noisy;
+        for (const std::string& metric : study_.metrics) (isNoiseFree(metric) ? clean : noisy).push_back(metric);
+        html += " in two independent halves A and B";
+        if (!clean.empty())
+            html += fmt::format(
+                "; {} {} the mean of (x − A)(x − B), which the noise of the reference does not raise (and which may fall below 0 where the "
+                "error is far smaller than that noise)",
+                list(clean), clean.size() == 1 ? "is" : "are");
+        html += ". All seeds are judged by one reference: intervals tell the spread of the technique";
+        html += std::ranges::find(study_.metrics, "bias") == study_.metrics.end() ? " and not of the reference."
+                                                                                  : ", those of bias the reference's noise as well.";
+        html += study_.paired
+                    ? " Every technique draws the same seeds, so that differences between techniques can be taken run by run; what all of "
+                      "them show alike is one observation."
+                    : " Every technique and value of a knob draws seeds of its own.";
+        if (!noisy.empty())
+            html += fmt::format(" {} {} measured against (A + B) / 2 and include that image's noise.", list(noisy),
+                                noisy.size() == 1 ? "is" : "are");
+        if (study_.warmup > 0) html += fmt::format(" Frames of warm-up before frame 0: {}.", study_.warmup);
+        if (device_.find("llvmpipe") != std::string::npos) html += " Times on a CPU driver say nothing of a GPU; rays and ratios do.";
+        if (summary_.missing > 0) html += fmt::format(" <b>{} runs are still missing.</b>", summary_.missing);
+        html += "</p>\n<ul class=\"note\">\n";
+        for (const std::string& metric : study_.metrics)
+            html += fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(isTemporal(metric) ? temporalMetricAbout(metric) : metricAbout(metric)));
+        if (study_.maskSwitched) html += "<li><b>.switched</b>: only where objects are seen that take another level at frame 0 or later</li>\n";
+        if (study_.referenceFinest)
+            html += "<li><b>.finest</b>: against the scene at its finest levels, so that what a coarser level loses counts too</li>\n";
+        return html + "</ul>\n";
+    }
+
+    std::string labelOf(const Cell& cell, std::size_t knobs) const {
+        const std::string text = knobText(cell.knobs, knobs);
+        return study_.techniques[cell.technique].name + (text.empty() ? "" : ", " + text);
+    }
+    std::string labelOf(const Cell& cell) const { return labelOf(cell, cell.knobs.size()); }
+    /// Of the curve that a cell is a point of: its last knob runs along it.
+    std::string curveOf(const Cell& cell) const { return labelOf(cell, cell.knobs.empty() ? 0 : cell.knobs.size() - 1); }
+
+    std::string sceneSection(std::size_t scene) const {
+        std::vector<const Cell*> cells;
+        for (const Cell& cell : summary_.cells)
+            if (cell.scene == scene && cell.seeds > 0) cells.push_back(&cell);
+        std::string html = fmt::format("<h2>{}</h2>\n", escapeHtml(study_.scenes[scene].name));
+        if (cells.empty()) return html + "<p>Nothing measured yet.</p>\n";
+        html += "<div class=\"charts\">\n";
+        for (const std::string& chart : study_.charts) html += charts(chart, cells);
+        return html + "</div>\n" + table(cells);
+    }
+
+    std::string table(const std::vector<const Cell*>& cells) const {
+        std::string html =
+            "<table><tr><th>technique</th><th>frame</th><th>seeds</th><th>ms</th><th>fastest – slowest</th><th>rays a pixel</th>";
+        for (const Measure& measure : measuresOf(study_)) html += fmt::format("<th>{}</th>", escapeHtml(measure.name()));
+        html += "</tr>\n";
+        for (const Cell* cell : cells) {
+            html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>",
+                                escapeHtml(labelOf(*cell)), cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest,
+                                cell->rays.mean / pixels_);
+            for (const Measure& measure : measuresOf(study_)) {
+                const auto found = cell->metrics.find(measure.name());
+                html += found != cell->metrics.end() ? fmt::format("<td>{}</td>", estimateHtml(found->second)) : "<td></td>";
+            }
+            html += "</tr>\n";
+        }
+        std::string noise;
+        for (const auto& [name, value] : cells.front()->noise) noise += fmt::format("{}{} {:.3g}", noise.empty() ? "" : ", ", name, value);
+        html += "</table>\n";
+        return noise.empty()
+                   ? html
+                   : html + fmt::format("<p class=\"note\">Noise of the reference itself, taken out above: {}.</p>\n", escapeHtml(noise));
+    }
+
+    std::string charts(const std::string& name, const std::vector<const Cell*>& cells) const {
+        if (name == "time_by_pass") return timeByPass(cells);
+        std::string html;
+        for (const Measure& measure : measuresOf(study_)) {
+            if (name == "error_vs_time") html += errorAlong(measure, cells, true);
+            if (name == "error_vs_rays") html += errorAlong(measure, cells, false);
+            if (name == "error_vs_frame" && study_.measure.size() > 1) html += errorByFrame(measure, cells, false);
+            if (name == "stability" && study_.measure.size() > 1 && isError(measure)) html += errorByFrame(measure, cells, true);
+        }
+        return html;
+    }
+
+    /// Never negative but for noise, and smaller is better: fit for a logarithmic axis.
+    static bool isError(const Measure& measure) { return measure.metric != "bias" && measure.metric != "psnr" && !measure.metric.ends_with("ssim"); }
+
+    static ChartSeries& seriesNamed(std::vector<ChartSeries>& all, const std::string& name) {
+        const auto found = std::ranges::find(all, name, &ChartSeries::name);
+        return found != all.end() ? *found : all.emplace_back(ChartSeries{name, {}});
+    }
+
+    static ChartPoint pointOf(double x, const Estimate& e, std::string about) {
+        const bool hasInterval = !std::isnan(e.halfWidth);
+        return {.x = x,
+                .y = e.mean,
+                .low = hasInterval ? e.mean - e.halfWidth : nan,
+                .high = hasInterval ? e.mean + e.halfWidth : nan,
+                .left = nan,
+                .right = nan,
+                .about = std::move(about)};
+    }
+
+    /// What a metric of sequences says first is said of the frame after the first.
+    int shownOf(const std::string& metric, const std::vector<const Cell*>& cells) const {
+        const auto has = [&](const Cell* cell) { return cell->offset >= shown_ && cell->metrics.contains(metric); };
+        const auto found = std::ranges::find_if(cells, has);
+        return found == cells.end() ? shown_ : (*found)->offset;
+    }
+
+    std::string errorAlong(const Measure& measure, const std::vector<const Cell*>& cells, bool time) const {
+        const std::string metric = measure.name();
+        const int shown = shownOf(metric, cells);
+        LineChart chart{.title = metric + (time ? " against time" : " against rays") +
+                                 (study_.measure.size() > 1 ? fmt::format(", frame {}", shown) : ""),
+                        .xLabel = time ? "time of the frame, ms (" + device_ + ")" : "rays a pixel",
+                        .yLabel = axisName(measure),
+                        .logX = true,
+                        .logY = isError(measure)};
+        for (const Cell* cell : cells) {
+            if (cell->offset != shown || !cell->metrics.contains(metric)) continue;
+            const Estimate& e = cell->metrics.at(metric);
+            ChartPoint point = pointOf(time ? cell->milliseconds : cell->rays.mean / pixels_, e,
+                                       fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell),
+                                                   cell->milliseconds, cell->rays.mean / pixels_, metric, e.mean, e.halfWidth));
+            if (time) point.left = cell->fastest, point.right = cell->slowest;
+            seriesNamed(chart.series, curveOf(*cell)).points.push_back(std::move(point));
+        }
+        return drawLines(chart);
+    }
+
+    /// `relative`: the error as a multiple of the first measured frame's, which shows what an event does to a technique whatever its level.
+    std::string errorByFrame(const Measure& measure, const std::vector<const Cell*>& cells, bool relative) const {
+        const std::string metric = measure.name();
+        const auto known = std::ranges::find_if(cells, [&](const Cell* cell) { return cell->metrics.contains(metric); });
+        const int start = known == cells.end() ? study_.measure.front() : (*known)->offset;
+        LineChart chart{.title = relative ? fmt::format("Stability: {} against that of frame {}", metric, start)
+                                          : metric + " against the frame",
+                        .xLabel = "frame, counted from the event",
+                        .yLabel = relative ? metric + ", ratio" : axisName(measure),
+                        .logX = false,
+                        .logY = isError(measure)};
+        const Cell* first = nullptr;
+        for (const Cell* cell : cells) {
+            if (cell->offset == start) first = cell;
+            if (!first || !cell->metrics.contains(metric)) continue;
+            const Estimate e = relative ? estimateRatio(cell->values.at(metric), first->values.at(metric)) : cell->metrics.at(metric);
+            seriesNamed(chart.series, labelOf(*cell))
+                .points.push_back(pointOf(cell->offset, e,
+                                          fmt::format("{}, frame {}: {:.4g} ± {:.2g}", labelOf(*cell), cell->offset, e.mean, e.halfWidth)));
+        }
+        return drawLines(chart);
+    }
+
+    std::string timeByPass(const std::vector<const Cell*>& cells) const {
+        std::vector<Bar> bars;
+        for (const Cell* cell : cells) {
+            if (cell->offset != shown_) continue;
+            Bar bar{.name = labelOf(*cell)};
+            for (const PassSummary& pass : cell->passes) bar.parts.push_back({pass.name, pass.milliseconds});
+            bars.push_back(std::move(bar));
+        }
+        return drawBars(study_.measure.size() > 1 ? fmt::format("Time by pass, frame {}", shown_) : "Time by pass",
+                        "mean time, ms (" + device_ + ")", bars);
+    }
+
+    const Study& study_;
+    const Summary& summary_;
+    double pixels_;
+    std::string device_;
+    int shown_ = 0;
+};
+
+}  // namespace
+
+std::string reportHtml(const Study& study, const Summary& summary) { return Report(study, summary).page(); }
+
+}  // namespace lodestir

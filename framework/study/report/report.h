@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// report.html: a study's tables and charts in one file that needs nothing else.
+#pragma once
+#include <framework/study/error/summary.h>
+
+#include <string>
+
+namespace lodestir {
+
+/// The page.
+std::string reportHtml(const Study& study, const Summary& summary);
+
+}  // namespace lodestir

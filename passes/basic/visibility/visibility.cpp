@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The first hits of a frame and what is known of them without shading.
+#include <framework/pass/pass.h>
+#include <framework/shaders/world/primary_hit.h>
+
+using namespace lodestir;
+
+struct Visibility final : Pass {
+    In<World>               world{this, "world", "the scene"};
+    In<World>               worldPrev{this, "worldPrev", "last frame's scene, for motion; unwired: motion of the camera and of the instances is zero", Need::optional};
+    Out<Buffer<PrimaryHit>> hits{this, "hits", "first hit of each pixel, with its film and lens sample", Count::perPixel()};
+    Out<Image>              motion{this, "motion", "from this frame's position of the hit to last frame's, pixels, y down", Format::rg32f};
+    Out<Image>              depth{this, "depth", "distance along the view direction, scene units; 0 where nothing was hit", Format::r32f};
+    Out<Image>              normal{this, "normal", "shading normal, world space; zero where nothing was hit", Format::rgba16f};
+    Out<Image>              albedo{this, "albedo", "base colour, linear; zero where nothing was hit", Format::rgba16f};
+    Param<bool>             pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};
+    Param<bool>             lens{this, "lens", true, "rays from a random point of the camera's aperture instead of its centre"};
+};
+LODESTIR_PASS(Visibility, "visibility.comp", "Finds the first hit of one camera ray a pixel: hits, motion, depth, normal, albedo.")

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What every pass that shifts a path has to agree on, because it decides which vertices are connected and how light was found. The pass that
+// makes the paths hands it on, so that it is set in one place.
+#ifndef LODESTIR_SHIFT_RULES_H
+#define LODESTIR_SHIFT_RULES_H
+#include "base/shared.h"
+
+LODESTIR_SHARED_BEGIN
+
+struct ShiftRules {
+    float roughness;       // least perceptual roughness of the lobes on both sides of a connection
+    float distance;        // least length of a connection, scene units
+    uint forcedNee;        // 1: a light found by light sampling is connected whatever roughness and distance say
+    uint lightCandidates;  // lights that light sampling chooses from at x_1; 1 at all other vertices
+    uint technique;        // TECHNIQUE_*
+};
+
+const uint TECHNIQUE_BOTH = 0u;   // light sampling and BSDF sampling, weighed by the balance heuristic
+const uint TECHNIQUE_LIGHT = 1u;  // light sampling alone, but behind delta lobes
+const uint TECHNIQUE_BSDF = 2u;   // BSDF sampling alone, but for lights without extent
+
+LODESTIR_SHARED_END
+LODESTIR_SHARED(ShiftRules, "restir/rules.h")
+#endif
