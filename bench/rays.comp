@@ -3,7 +3,7 @@
 // Traces given rays and stores their hits. BENCH_RAY_QUERY: with the driver's own ray query instead of one of trace/'s bodies.
 #ifdef BENCH_RAY_QUERY
 #extension GL_EXT_ray_query : require
-#include "trace/ray.h"
+#include "world/ray.h"
 #include "world/world.h"
 
 Hit traceRay(World w, Ray ray, bool anyHit) {

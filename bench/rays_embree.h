@@ -3,7 +3,7 @@
 #pragma once
 #include <bench/rays_scenes.h>
 #include <framework/core/tasks.h>
-#include <framework/shaders/trace/ray.h>
+#include <framework/shaders/world/ray.h>
 #include <framework/shaders/world/world.h>
 
 #include <embree3/rtcore.h>

@@ -28,22 +28,13 @@ private:
         const Id type = m_.typeOf(pointer);
         return type && m_.definition(type).op() == spv::OpTypePointer && m_.definition(type)[2] == spv::StorageClassPhysicalStorageBuffer;
     }
-    /// Whether a pointer leads to an element of an array whose length nobody knows.
-    bool isElement(Id pointer) const {
-        const Instruction& chain = m_.definition(pointer);
-        if (chain.op() != spv::OpAccessChain && chain.op() != spv::OpInBoundsAccessChain) return false;
-        if (chain.size() < 5) return false;
-        const Instruction& block = m_.definition(m_.definition(m_.typeOf(chain[3]))[3]);
-        const auto member = m_.constant(chain[4]);
-        return block.op() == spv::OpTypeStruct && member && m_.definition(block[2 + *member]).op() == spv::OpTypeRuntimeArray;
-    }
     bool touches(Id function, bool upToBranch) {
         if (!seen_.insert(function).second) return false;
         for (std::size_t i = bodies_.at(function); m_.instructions[i].op() != spv::OpFunctionEnd; ++i) {
             const Instruction& at = m_.instructions[i];
             if (upToBranch && (at.op() == spv::OpBranchConditional || at.op() == spv::OpSwitch || at.op() == spv::OpLoopMerge)) return false;
             if (at.op() == spv::OpFunctionCall && touches(at[3], false)) return true;
-            if (at.op() == spv::OpLoad && isMemory(at[3]) && isElement(at[3])) return true;
+            if (at.op() == spv::OpLoad && isMemory(at[3])) return true;
             if (at.op() == spv::OpStore && isMemory(at[1])) return true;
             if (at.op() >= spv::OpAtomicLoad && at.op() <= spv::OpAtomicXor && isMemory(at.op() == spv::OpAtomicStore ? at[1] : at[3])) return true;
         }

@@ -94,9 +94,9 @@ private:
     void checkGenerated(const Port& port) {
         if (port.name.empty()) return;
         const std::string name(port.name);
-        std::string store = "store" + name;
-        store[5] = char(std::toupper(static_cast<unsigned char>(store[5])));
-        for (const std::string& made : {name + "Size", name + "Count", name + "Rgba", store}) {
+        std::string capital = name;
+        capital[0] = char(std::toupper(static_cast<unsigned char>(capital[0])));
+        for (const std::string& made : {name + "Size", name + "Count", name + "Rgba", "store" + capital, "add" + capital}) {
             if (names_.contains(made)) add(fmt::format("\"{}\" is what pass.glsl makes of port \"{}\"", made, name), "choose another name");
         }
     }

@@ -198,6 +198,12 @@ private:
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return;", i);
         line("    {}(port.address).at[i] = value;", memory);
         line("}}");
+        if (port.type.name != "uint") return;
+        line("uint add{}(uint i, uint value) {{", capitalised(port.name));
+        line("    const PortRecord port = passBlock().{};", name);
+        line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return 0u;", i);
+        line("    return atomicAdd({}(port.address).at[i], value);", memory);
+        line("}}");
     }
 
     void writeNoBuffer(const Port& port) {
@@ -210,7 +216,8 @@ private:
             line("{} {}() {{ return {}Memory(passBlock().{}.address).value; }}", port.type.name, readName(port), capitalised(port.type.name),
                  readName(port));
         } else {
-            line("{} {}() {{ {} nothing = {{}}; return nothing; }}", port.type.name, port.name, port.type.name);
+            // Not zero: a struct that holds addresses can't be.
+            line("{} {}() {{ {} nothing; return nothing; }}", port.type.name, port.name, port.type.name);
         }
     }
 

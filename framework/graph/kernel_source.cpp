@@ -19,15 +19,6 @@
 namespace lodestir {
 namespace {
 
-/// Whatever address is read there leads back to it: the initialisers of a shader's globals run before its main() can return.
-gpu::Buffer idleMemory(const gpu::Device& device) {
-    constexpr std::size_t bytes = 1 << 16;  // more than any block or handle takes
-    gpu::Buffer memory(device, bytes, gpu::Memory::upload, "idle block");
-    const std::vector<std::uint64_t> words(bytes / sizeof(std::uint64_t), memory.address());
-    std::memcpy(memory.mapped(), words.data(), bytes);
-    return memory;
-}
-
 bool isDriver(const Path& file) { return file.filename() == "driver.glsl" && file.parent_path().filename() == "trace"; }
 
 }  // namespace
@@ -60,8 +51,8 @@ KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const S
     kernel.readsTexels = source.texelReads;
     kernel.spirv = gpu::compileShader(source);
     if (gpu::touchesMemoryEarly(kernel.spirv.words))
-        throw Error({source.file.string(), 0, 0}, "the shader reads an array, or writes, before main() can return while the driver only compiles",
-                    "begin main() with `if (skip()) return;`, and let no global's initialiser read what isn't a single struct");
+        throw Error({source.file.string(), 0, 0}, "the shader reads or writes memory before main() can return while the driver only compiles",
+                    "begin main() with `if (skip()) return;`, and let no global's initialiser read a port");
     const BlockLayout layout = blockLayout(*n.pass);
     for (std::size_t i = 0; i < n.pass->parameters.size(); ++i)
         if (layout.constants[i]) kernel.constants.push_back({*layout.constants[i], bitsOf(*n.pass->parameters[i])});
@@ -69,13 +60,10 @@ KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const S
     return kernel;
 }
 
-PipelineMaker::PipelineMaker(const gpu::Device& device) : device_(device), idle_(idleMemory(device)) {}
-
 gpu::Pipeline PipelineMaker::make(const KernelSource& source) const {
     gpu::Pipeline pipeline(device_, source.spirv, source.constants, sizeof(Push), source.name);
     Push push{};
     push.warm = 1;
-    push.block = idle_.address();
     gpu::runOnce(device_, [&](gpu::Commands& commands) { commands.dispatch(pipeline, std::as_bytes(std::span(&push, 1)), 1); });
     return pipeline;
 }

@@ -31,12 +31,11 @@ inline bool usesPersistentGroups(const gpu::Device& device) { return device.fact
 /// Makes pipelines ready on one device: by a dispatch that returns at once, before which nothing of the graph is there yet.
 class PipelineMaker {
 public:
-    explicit PipelineMaker(const gpu::Device& device);
+    explicit PipelineMaker(const gpu::Device& device) : device_(device) {}
     gpu::Pipeline make(const KernelSource& source) const;
 
 private:
     const gpu::Device& device_;
-    gpu::Buffer idle_;  ///< block, ports and handles of that dispatch
 };
 
 }  // namespace lodestir

@@ -13,7 +13,7 @@
 #include <framework/core/error.h>  // what execute() throws
 #include <framework/pass/parameter.h>
 #include <framework/pass/port.h>
-#include <framework/shaders/trace/ray.h>
+#include <framework/shaders/world/ray.h>
 #include <framework/shaders/world/world.h>
 
 #include <initializer_list>

@@ -91,7 +91,8 @@ template <class R> struct In : Port {
     In(Pass* pass, std::string_view n, std::string_view d, Need need = Need::required)
         : Port(pass, n, d, PortTypeOf<R>::value, Role::in, {}, need == Need::optional) {}
 };
-/// An output, written as storeColor(p, value) or storePaths(i, value), readable like an input (as madeColor(p) where an input has the same name).
+/// An output, written as storeColor(p, value) or storePaths(i, value), readable like an input (as madeColor(p) where an input has the same name). A buffer
+/// of uint is counted in as well: addCounts(i, 1) adds atomically and gives what was there.
 template <class R> struct Out : Port {
     Out(Pass* pass, std::string_view n, std::string_view d) : Port(pass, n, d, PortTypeOf<R>::value, Role::out, {}) {}
     Out(Pass* pass, std::string_view n, std::string_view d, Format f, Extent e = {}) : Port(pass, n, d, PortTypeOf<R>::value, Role::out, {f, e, {}}) {}

@@ -14,17 +14,23 @@ struct ConnectionCriteria {
 /// kernel must see it on another side because its compiler rounded another way.
 bool isRough(ConnectionCriteria c, float roughness) { return roughness > 0.0 && round(roughness * 4096.0) >= round(c.roughness * 4096.0); }
 
-/// May x_{j-1} and x_j be connected? `before`: roughness of the lobe sampled at x_{j-1}, `at`: at x_j.
-bool surfaceConnectable(ConnectionCriteria c, float before, float at, float distance) {
-    return isRough(c, before) && isRough(c, at) && distance >= c.distance;
+/// Two vertices x_{j-1}, x_j, as far as it matters to whether they may be connected. Roughness is that of the lobe sampled there.
+struct Pair {
+    uint end;            // PAIR_*: what x_j is
+    float before, at;    // roughness at x_{j-1} and, where it scatters, at x_j
+    float pdfBefore;     // of the direction x_{j-1} -> x_j, of all lobes, per solid angle; 0: a delta lobe's
+    float pdfAt;         // of the direction that leaves x_j, likewise
+    float cosineBefore;  // at x_{j-1}, of the segment with the triangle's normal
+    float cosineAt;      // at x_j
+    float distance;      // between them; FAR: infinite
+};
+const uint PAIR_SURFACE = 0u;      // x_j scatters
+const uint PAIR_EMITTER = 1u;      // it is an emitter that the BSDF found
+const uint PAIR_ENVIRONMENT = 2u;  // it is the environment, found by the BSDF
+const uint PAIR_LIGHT = 3u;        // it is a light found by light sampling
+
+/// May the two be connected? Nothing scatters on a light, and the environment is infinitely far.
+bool connectable(ConnectionCriteria c, Pair p) {
+    bool far = p.end == PAIR_ENVIRONMENT || p.distance >= c.distance;
+    return far && isRough(c, p.before) && (p.end != PAIR_SURFACE || isRough(c, p.at));
 }
-
-/// The same where the path ends on an emitter at x_j, found by the BSDF: nothing scatters there.
-bool emitterConnectable(ConnectionCriteria c, float before, float distance) { return isRough(c, before) && distance >= c.distance; }
-
-/// The same where it ends in the environment: infinitely far.
-bool environmentConnectable(ConnectionCriteria c, float before) { return isRough(c, before); }
-
-/// k after looking at the pair (x_{j-1}, x_j), j = 2, 3, ...: the first connectable pair's j. 0: none so far. A light found by light
-/// sampling counts as connectable whatever the criteria say (Lin et al. 2026, section 6.2.3).
-uint firstConnection(uint k, uint j, bool connectable) { return k == 0u && connectable ? j : k; }

@@ -37,6 +37,7 @@ struct PathTree {
     uint lobe;          // that lobe
     float lobePdf;      // its density of the direction to x_j, its chance included
     float pdf;          // of all lobes together; 0: camera or delta lobe
+    float cosine;       // of that direction with the triangle's normal there
     vec3 connected;     // throughput and pdf of x_{j-1} -> x_j if that is a connection: in the direction of its barycentrics
     float connectedPdf;
 
@@ -77,7 +78,7 @@ void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
     p.before = p.connectedPdf = 0.0;
     p.lobe = 0u;
     p.lobePdf = 0.0;
-    p.pdf = 0.0;
+    p.pdf = p.cosine = 0.0;
     p.k = 0u;
     p.lobeBefore = p.lobeAt = 0u;
     p.density = 1.0;
@@ -88,6 +89,13 @@ void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
     p.ray = ray;
     p.from = p.ray.origin;
     p.onward = p.ray;
+}
+
+/// Whether x_j may be x_k: the first vertex whose pair with x_{j-1} may be connected. `at` and `pdf`: roughness there and density of the direction that
+/// leaves it. `s`: x_j, where it has a surface.
+bool maybeConnected(PathTree p, ShiftRules rules, uint end, float at, float pdf, Surface s, float distance) {
+    if (p.k > 0u || p.vertex < 2u) return false;
+    return connectable(criteriaOf(rules), Pair(end, p.before, at, p.pdf, pdf, p.cosine, abs(dot(s.normal, s.view)), distance));
 }
 
 /// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `warp`: what resampling among
@@ -125,9 +133,8 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
     Reservoir path = p.spine;
     float density = p.density;
     TrianglePlace rc = p.rc;
-    ConnectionCriteria criteria = criteriaOf(rules);
-    bool connectable = p.k == 0u && p.vertex >= 2u && (environment ? environmentConnectable(criteria, p.before) : emitterConnectable(criteria, p.before, distance));
-    if (connectable && !environment) {
+    bool connects = maybeConnected(p, rules, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance);
+    if (connects && !environment) {
         throughput = p.connected;
         pdf = p.connectedPdf;
     }
@@ -137,7 +144,7 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
         bool last = p.k + 1u == p.vertex;
         path.radiance = p.suffix * radiance * (last ? 1.0 : share);
         path.lightPdf = last ? pdfLight : 0.0;
-    } else if (connectable) {
+    } else if (connects) {
         shape.k = p.vertex;
         shape.lobeBefore = p.lobe;
         path.rcInstance = hit.instance;
@@ -156,6 +163,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     uint candidates = lightCandidates(rules, p.vertex);
     LightSample light;
     vec3 chosen = vec3(0.0);
+    float pdfChosen = 0.0;  // of the BSDF
     Ris ris = risStart();
     for (uint i = 0u; i < candidates; ++i) {
         LightSample l = lightSampleAt(w, pathLight(w, p.seed, p.vertex, i), s.position);
@@ -166,6 +174,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         if (!risAdd(ris, luminance(sent), random1(p.seed, p.vertex, RANDOM_FREE | i << 8u))) continue;
         light = l;
         chosen = sent;
+        pdfChosen = pdf;
     }
     if (chosen == vec3(0.0)) return false;
     float warp = ris.wSum / (float(candidates) * luminance(chosen));
@@ -179,7 +188,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     TrianglePlace rc = p.rc;
     if (p.k > 0u) {
         path.radiance = p.suffix * chosen;
-    } else if (p.vertex >= 2u && surfaceConnectable(criteriaOf(rules), p.before, roughness, distance)) {
+    } else if (maybeConnected(p, rules, PAIR_SURFACE, roughness, pdfChosen, s, distance)) {
         shape.k = p.vertex;
         shape.lobeBefore = p.lobe;
         path.rcInstance = s.instance;
@@ -191,7 +200,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         density = p.lobePdf * pdfLight;
         throughput = p.connected;
         rc = TrianglePlace(s.barycentrics, s.uv);
-    } else if (lightConnectable(rules, p.vertex, roughness, light.distance)) {
+    } else if (lightConnectable(rules, p.vertex, s, roughness, pdfChosen, light)) {
         shape.k = p.vertex + 1u;
         path.rcInstance = w.lights.at[light.point.light].instance;
         path.rcPrimitive = light.delta ? light.point.light : kind == PATH_LIGHT_ENVIRONMENT ? light.point.texel : w.lights.at[light.point.light].primitive;
@@ -217,7 +226,7 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
     float roughness = lobeRoughness(b, next.lobe);
     if (p.k > 0u) {
         p.suffix *= next.lobeWeight;
-    } else if (p.vertex >= 2u && surfaceConnectable(criteriaOf(rules), p.before, roughness, distance)) {
+    } else if (maybeConnected(p, rules, PAIR_SURFACE, roughness, next.pdf, s, distance)) {
         p.k = p.vertex;
         p.lobeBefore = p.lobe;
         p.lobeAt = next.lobe;
@@ -238,6 +247,7 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
     p.lobe = next.lobe;
     p.lobePdf = next.lobePdf;
     p.pdf = next.delta ? 0.0 : next.pdf;
+    p.cosine = abs(dot(s.normal, next.wi));
     p.onward = spawnRay(w, s, next.wi);
     return true;
 }
@@ -268,7 +278,7 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
         vec3 left = segmentTransmittance(w, s, distance);
         p.throughput *= left;
         if (p.k > 0u) p.suffix *= left;
-        if (p.k == 0u && j >= 2u && emitterConnectable(criteriaOf(rules), p.before, distance)) {
+        if (maybeConnected(p, rules, PAIR_EMITTER, 0.0, 0.0, s, distance)) {
             BsdfValue value = bsdfValue(p.bsdf, p.lobe, p.wo, direction);
             p.connected = p.incoming * value.one / p.lobePdf * left;
             p.connectedPdf = value.pdf;

@@ -16,7 +16,7 @@ vec3 onGrid(vec3 direction) { return unpackDirection(packDirection(direction)); 
 
 /// The direction in which x_j, j >= 2, is reached from x_{j-1}.
 vec3 arrival(World w, Hit hit, vec3 from, vec3 direction) {
-    return safeNormalize(positionOn(w, hit.instance, hit.primitive, hit.barycentrics) - from, direction);
+    return safeNormalize(positionAt(w, pointOf(hit)) - from, direction);
 }
 
 /// The geometry term of the Jacobian per barycentric area of x_k instead of per area: barycentrics are what a shift keeps, so that a triangle
@@ -65,10 +65,10 @@ float roughestLobe(Bsdf b, vec3 wo) {
 }
 
 /// Whether the light behind `vertex`, found by light sampling, may be x_k itself: always where the numbers alone don't tell the light
-/// (Lin et al. 2026, ReSTIR PT Enhanced, section 6.2.3).
-bool lightConnectable(ShiftRules rules, uint vertex, float roughness, float distance) {
+/// (Lin et al. 2026, ReSTIR PT Enhanced, section 6.2.3). `roughness` and `pdf` (of its direction): of all lobes at the vertex.
+bool lightConnectable(ShiftRules rules, uint vertex, Surface s, float roughness, float pdf, LightSample l) {
     if (rules.forcedNee != 0u || lightCandidates(rules, vertex) > 1u) return true;
-    return emitterConnectable(criteriaOf(rules), roughness, distance);
+    return connectable(criteriaOf(rules), Pair(PAIR_LIGHT, roughness, 0.0, pdf, 0.0, abs(dot(s.normal, l.direction)), l.cosine, l.distance));
 }
 
 /// Do two camera rays of one pixel coincide? The lens sample counts only where there is a lens.

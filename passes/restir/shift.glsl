@@ -38,48 +38,60 @@ struct Shift {
     vec3 from;           // y_{j-1}
     float before;        // roughness of the lobe sampled there
     float pdf;           // of all lobes, of the direction from there; 0: camera or delta lobe
+    float cosine;        // of that direction with the triangle's normal there
 };
 
-/// Common to both ways to start. `jacobian`: of what has happened to the path already.
-void shiftBegin(inout Shift t, Reservoir path, SampleHit base, PrimaryHit first, Ray ray, float jacobian, bool refresh) {
-    t.path = path;
-    t.hit = base;
-    t.hit.hit = first;
-    t.jacobian = jacobian;
-    t.shape = unpackShape(path.shape);
-    t.refresh = refresh;
-    t.state = SHIFT_WALK;
+/// What is to be shifted, and where to.
+struct ShiftTask {
+    Reservoir path;
+    SampleHit base;    // where it begins
+    ivec2 to;          // the pixel it goes to
+    PrimaryHit first;  // a camera hit of that pixel, in the World the path goes to
+    bool carried;      // `first` is the path's own first hit, taken there, and has to be seen from its place on film and lens; otherwise it is a hit that
+                       // is known anyway, which saves a ray where it is of the same camera sample
+    float jacobian;    // of what has happened to the path already; 0: there is nothing to shift
+    bool refresh;      // walk anew what follows x_k
+};
+
+ShiftTask shiftOfNothing() {
+    PrimaryHit nowhere = PrimaryHit(NONE, NONE, vec2(0.0), vec2(0.0), vec2(0.0));
+    return ShiftTask(emptyReservoir(0.0), SampleHit(nowhere, 0.0, vec2(0.0), TrianglePlace(vec2(0.0), vec2(0.0)), 0u), ivec2(0), nowhere, false, 0.0, false);
+}
+
+/// The shift of a path to pixel `to`, whose camera hit `centre` is known.
+ShiftTask shiftTo(ivec2 to, PrimaryHit centre, Reservoir path, SampleHit base) { return ShiftTask(path, base, to, centre, false, 1.0, false); }
+
+// The two shifts that a partner costs (reuse_driver.glsl).
+const uint FORTH = 0u;  // of the path that is to be reused
+const uint BACK = 1u;   // of the path it is weighed against, to where the other was made
+const uint WAYS = 2u;
+
+/// Starts a shift in an image of `size` pixels. False: there is nothing to shift.
+bool shiftStart(inout Shift t, World w, ShiftTask task, uvec2 size) {
+    t.path = task.path;
+    t.hit = task.base;
+    t.jacobian = holdsPath(task.path) ? task.jacobian : 0.0;
+    t.shape = unpackShape(task.path.shape);
+    t.refresh = task.refresh;
+    t.carried = task.carried;
+    t.known = task.carried || sameCameraSample(w, task.first, task.base.hit.film, task.base.hit.lens);
+    if (t.known) t.hit.hit = task.first;
+    else t.hit.hit = PrimaryHit(NONE, NONE, vec2(0.0), task.base.hit.film, task.base.hit.lens);
+    t.state = task.carried ? SHIFT_SEE : SHIFT_WALK;
     t.vertex = 0u;
-    t.resumes = t.carried = false;
+    t.resumes = false;
     t.throughput = t.prefix = vec3(1.0);
-    t.before = t.pdf = 0.0;
-    t.ray = t.onward = ray;
-    t.from = ray.origin;
-}
-
-/// Starts the shift of `path`, whose camera sample is `base`, to pixel `to` of an image of `size` pixels. `centre`: the known camera hit of that
-/// pixel in `w`, which saves a ray where it is of the same camera sample. False: the reservoir holds no path.
-bool shiftStart(inout Shift t, World w, Reservoir path, SampleHit base, ivec2 to, uvec2 size, PrimaryHit centre, float jacobian, bool refresh) {
-    t.known = sameCameraSample(w, centre, base.hit.film, base.hit.lens);
-    PrimaryHit first = centre;
-    if (!t.known) first = PrimaryHit(NONE, NONE, vec2(0.0), base.hit.film, base.hit.lens);
-    shiftBegin(t, path, base, first, cameraRay(w, filmOf(to, base.hit.film, size), base.hit.lens), holdsPath(path) ? jacobian : 0.0, refresh);
-    return t.jacobian > 0.0;
-}
-
-/// Starts the shift of `path` to the camera hit `first` of pixel `to` in `w`, which is asked for being seen from its place on film and lens.
-bool shiftStartAt(inout Shift t, World w, Reservoir path, SampleHit base, PrimaryHit first, ivec2 to, uvec2 size, float jacobian, bool refresh) {
-    Ray ray = cameraRay(w, filmOf(to, first.film, size), first.lens);
-    if (first.primitive != NONE) {
+    t.before = t.pdf = t.cosine = 0.0;
+    t.ray = cameraRay(w, filmOf(task.to, t.hit.hit.film, size), t.hit.hit.lens);
+    t.from = t.ray.origin;
+    if (task.carried && task.first.primitive != NONE) {
         float gap;
-        vec3 way = segmentEnd(w, first.instance, first.primitive, first.barycentrics, ray.origin, gap) - ray.origin;
-        ray.direction = safeNormalize(way, ray.direction);
+        vec3 way = segmentEnd(w, pointOf(task.first), t.ray.origin, gap) - t.ray.origin;
+        t.ray.direction = safeNormalize(way, t.ray.direction);
         float reach = length(way);
-        ray.tMax = reach - min(gap, 0.5 * reach);
+        t.ray.tMax = reach - min(gap, 0.5 * reach);
     }
-    shiftBegin(t, path, base, first, ray, holdsPath(path) ? jacobian : 0.0, refresh);
-    t.known = t.carried = true;
-    t.state = SHIFT_SEE;
+    t.onward = t.ray;
     return t.jacobian > 0.0;
 }
 
@@ -99,10 +111,12 @@ void shiftFail(inout Shift t) {
     t.state = SHIFT_DONE;
 }
 
-/// Where it is decided whether the shift can be undone: pairs before k must not be connectable, the pair at k must be.
-bool agreesOnConnection(Shift t, bool target, bool connectable) {
+/// Where it is decided whether the shift can be undone: pairs before k must not be connectable, the pair at k must be. `at` and `pdf`: roughness at y_j
+/// and density of the direction that leaves it. `s`: y_j, where it has a surface.
+bool agreesOnConnection(Shift t, ShiftRules rules, bool target, uint end, float at, float pdf, Surface s, float distance) {
     bool suffix = t.shape.k > 0u && t.vertex > t.shape.k;
-    return t.vertex < 2u || suffix || connectable == target;
+    if (t.vertex < 2u || suffix) return true;
+    return connectable(criteriaOf(rules), Pair(end, t.before, at, t.pdf, pdf, t.cosine, abs(dot(s.normal, s.view)), distance)) == target;
 }
 
 /// F of a replayed path, or radiance and F of a suffix walked again, that ends with `radiance`. The share of a light that the BSDF of x_k found
@@ -121,10 +135,8 @@ void reachLight(inout Shift t, vec3 radiance, float share, float pdfLight) {
 /// The path ends here, on an emitter or in the environment (hit.primitive NONE).
 void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec3 direction, float distance, bool target) {
     bool environment = hit.primitive == NONE;
-    ConnectionCriteria criteria = criteriaOf(rules);
-    bool connectable = environment ? environmentConnectable(criteria, t.before) : emitterConnectable(criteria, t.before, distance);
     bool alike = !t.shape.nee && t.vertex == t.shape.d && t.shape.light == (environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE);
-    if (!alike || !agreesOnConnection(t, target, connectable)) {
+    if (!alike || !agreesOnConnection(t, rules, target, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance)) {
         shiftFail(t);
         return;
     }
@@ -189,6 +201,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     LightSample light;
     vec3 goal;  // x_k
     float gap;  // before it
+    SurfacePoint connected = SurfacePoint(t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics);
     if (towards == TOWARDS_SAMPLE) {
         next = pathDirection(b, wo, t.path.seed, j);
         lobe = next.lobe;
@@ -201,11 +214,11 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         lobe = t.shape.lobeBefore;
         way = unpackDirection(t.path.rcDirection);
         if (kind != RC_ENVIRONMENT) {
-            if (!isShown(w, t.path.rcInstance, t.path.rcPrimitive)) {  // of a level that this World doesn't show
+            if (!isShown(w, connected)) {  // of a level that this World doesn't show
                 shiftFail(t);
                 return false;
             }
-            goal = segmentEnd(w, t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics, s.position, gap);
+            goal = segmentEnd(w, connected, s.position, gap);
             way = safeNormalize(goal - s.position, way);
         }
     } else {
@@ -213,17 +226,18 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         way = unpackDirection(t.path.rcDirection);
     }
     float roughness = lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, lobe);
-    if (!agreesOnConnection(t, target, surfaceConnectable(criteriaOf(rules), t.before, roughness, distance))) {
+    BsdfValue value = bsdfValue(b, lobe, wo, way);
+    if (!agreesOnConnection(t, rules, target, PAIR_SURFACE, roughness, value.pdf, s, distance)) {
         shiftFail(t);
         return false;
     }
-    BsdfValue value = bsdfValue(b, lobe, wo, way);
 
     if (towards == TOWARDS_SAMPLE) {
         BsdfSample drawn = next.delta || lobe == LOBE_COUNT ? deltaSample(b, next) : lobeSample(next, value);
         t.throughput *= drawn.lobeWeight;
         t.before = roughness;
         t.pdf = drawn.delta ? 0.0 : drawn.pdf;
+        t.cosine = abs(dot(s.normal, way));
         t.from = s.position;
         t.ray = spawnRay(w, s, way);
         if (t.throughput == vec3(0.0)) shiftFail(t);
@@ -233,11 +247,12 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         t.throughput *= value.one;
         t.before = roughness;
         t.pdf = value.pdf;
+        t.cosine = abs(dot(s.normal, way));
         t.from = s.position;
         t.vertex = t.shape.k;
         t.state = SHIFT_CONNECT;
         t.ray = kind == RC_ENVIRONMENT ? spawnRay(w, s, way) : rayBetween(s, goal, gap);
-        hit = Hit(0.0, t.hit.rc.barycentrics, kind == RC_ENVIRONMENT ? NONE : t.path.rcPrimitive, t.path.rcInstance);
+        hit = Hit(0.0, connected.barycentrics, kind == RC_ENVIRONMENT ? NONE : connected.primitive, connected.instance);
         direction = way;
         target = true;
         if (t.throughput == vec3(0.0)) shiftFail(t);
@@ -251,7 +266,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         // The last vertex of a replayed path, of a suffix, or y_{k-1} before a light that is x_k.
         bool stored = kind == RC_LIGHT;
         if (t.shape.k == 0u || stored) {
-            if (lightConnectable(rules, j, roughness, light.distance) != stored) shiftFail(t);
+            if (lightConnectable(rules, j, s, roughness, value.pdf, light) != stored) shiftFail(t);
         }
         reachLight(t, value.all * light.radianceOverPdf * (stored ? vertexDensity(w, light) : 1.0), share, 0.0);
         if (stored) {
@@ -282,6 +297,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     t.onward = sampled ? shadowRay(w, s, light) : spawnRay(w, s, way);
     t.throughput = vec3(1.0);
     t.pdf = value.pdf;
+    t.cosine = abs(dot(s.normal, way));
     t.from = s.position;
     return false;
 }

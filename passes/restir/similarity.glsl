@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Whether two pixels look at surfaces alike enough to reuse each other's paths. Only camera hits through pixel centres are asked, never
 // samples: which neighbours count must not depend on what they hold.
-#include "world/primary_hit.h"
-#include "world/surface.glsl"
+#include "base/math.glsl"
+#include "surface/surface_point.glsl"
 
 /// What a pixel sees, as far as that question goes.
 struct PixelView {
@@ -16,10 +16,8 @@ PixelView pixelView(World w, PrimaryHit h) {
     if (h.primitive == NONE) return v;
     uvec3 corners = cornersOf(w, h.primitive);
     Placement placement = placementOf(w, h.instance);
-    vec3 weights = vec3(1.0 - h.barycentrics.x - h.barycentrics.y, h.barycentrics), n = vec3(0.0);
-    for (int i = 0; i < 3; ++i) n += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
     vec3 way = placePoint(placement, pointOn(w, corners, h.barycentrics).position) - w.camera.position;
-    n = safeNormalize(placeNormal(placement, n), vec3(0.0, 1.0, 0.0));
+    vec3 n = safeNormalize(placeNormal(placement, smoothNormalOn(w, corners, h.barycentrics)), vec3(0.0, 1.0, 0.0));
     vec3 view = w.camera.orthographic != 0u ? w.camera.forward : way;
     return PixelView(false, dot(n, view) > 0.0 ? -n : n, dot(way, w.camera.forward));
 }

@@ -44,9 +44,9 @@ TEST_F(Mutations, BetweenPixels) {
          {"without_light_g", "shift_check", "restir/shift.glsl",
           "float G = connectionTerm(w, light);\n            t.jacobian *= reconnectionJacobian(G, t.path.G);",
           "float G = connectionTerm(w, light);"},
-         {"unchecked", "spatial_reuse", "restir/shift.glsl", "return t.vertex < 2u || suffix || connectable == target;", "return true;"},
-         {"lobe_pdf", "shift_check", "restir/shift.glsl", "t.pdf = value.pdf;\n        t.from = s.position;\n        t.vertex = t.shape.k;",
-          "t.pdf = value.onePdf;\n        t.from = s.position;\n        t.vertex = t.shape.k;"},
+         {"unchecked", "spatial_reuse", "restir/shift.glsl", "if (t.vertex < 2u || suffix) return true;", "return true;"},
+         {"lobe_pdf", "shift_check", "restir/shift.glsl", "t.pdf = value.pdf;\n        t.cosine = abs(dot(s.normal, way));\n        t.from = s.position;",
+          "t.pdf = value.onePdf;\n        t.cosine = abs(dot(s.normal, way));\n        t.from = s.position;"},
          {"share_lost", "shift_check", "restir/mis.glsl", "(theirs > 0.0 ? balanceMis(p.canonical * pHat, theirs) : 1.0)",
           "balanceMis(p.canonical * pHat, theirs) * float(theirs > 0.0)"}});
     ASSERT_FALSE(HasFailure());
@@ -77,7 +77,7 @@ TEST_F(Mutations, BetweenPixels) {
 
 TEST_F(Mutations, BetweenFrames) {
     plant(folder.path, {{"wrong_world", "shift_check", "shift_check.comp", "    return partnerWorld();\n}",
-                         "    return item == 1 ? scene : partnerWorld();\n}"},
+                         "    return trip == OF_PARTNER && way == BACK ? world() : partnerWorld();\n}"},
                         {"without_light_pdf", "shift_check", "restir/shift.glsl",
                          "t.jacobian *= jacobianRatio(t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);", ""}});
     ASSERT_FALSE(HasFailure());

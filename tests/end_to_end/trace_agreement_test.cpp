@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bodies that trace rays agree with each other, and with trying every triangle in double precision.
 #include <framework/gpu/acceleration.h>
-#include <framework/shaders/trace/ray.h>
+#include <framework/shaders/world/ray.h>
 #include <framework/shaders/world/world.h>
 #include <tests/cpu/triangle_soup.h>
 
@@ -261,7 +261,7 @@ protected:
         std::vector<double> other(rays.size());
         std::vector<glm::dvec3> light(rays.size());
         std::vector<Ray> shadowRays = rays;
-        for (Ray& ray : shadowRays) ray.panes = 1;
+        for (Ray& ray : shadowRays) ray.flags = RAY_THROUGH_PANES;
         for (std::size_t i = 0; i < rays.size(); ++i) truth[i] = scene.tryAll(rays[i], other[i], light[i]);
         const auto found = std::ranges::count_if(truth, [](const Hit& h) { return h.primitive != NONE; });
         EXPECT_GT(found, std::ptrdiff_t(rays.size() / 20));
@@ -399,8 +399,8 @@ TEST_F(TraceAgreement, PanesOfTwoTrianglesDimOnce) {
     scene.place(0, glm::mat4(1));
     const World w = scene.upload(*device_);
     std::vector<Ray> rays;
-    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 16, 0.5f}, .tMin = 0, .direction = {0, 0, -1}, .tMax = farAway, .panes = 1});
-    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 32, 0.5f}, .tMin = 0, .direction = {0, 0, 1}, .tMax = farAway, .panes = 1});
+    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 16, 0.5f}, .tMin = 0, .direction = {0, 0, -1}, .tMax = farAway, .flags = RAY_THROUGH_PANES});
+    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 32, 0.5f}, .tMin = 0, .direction = {0, 0, 1}, .tMax = farAway, .flags = RAY_THROUGH_PANES});
     for (const auto& [name, body] : bodies_) {
         for (const Hit& shadow : trace(body, w, rays, true)) {
             EXPECT_EQ(shadow.primitive, NONE) << name;

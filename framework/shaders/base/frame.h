@@ -2,7 +2,7 @@
 // What the runner hands to every shader: facts of the frame, ports as addresses, the push constants. Shared by C++ and GLSL (scalar layout).
 #ifndef LODESTIR_FRAME_H
 #define LODESTIR_FRAME_H
-#include "shared.h"
+#include "base/shared.h"
 
 LODESTIR_SHARED_BEGIN
 

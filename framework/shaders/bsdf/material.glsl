@@ -3,7 +3,7 @@
 #include "bsdf/bsdf.glsl"
 #include "texture/material_map.glsl"
 #include "world/scene_facts.glsl"
-#include "world/surface.glsl"
+#include "surface/surface.glsl"
 
 /// What the maps of a material with layers make of their factors.
 struct LayerValues {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Light that surfaces send out themselves.
 #include "texture/alpha.glsl"
-#include "world/surface.glsl"
+#include "surface/surface.glsl"
 
 /// Emitted radiance at a point of a triangle, on the side it emits to. What covers only in part (BLEND, MASK) emits in part.
 vec3 emissionOn(World w, uint material, uvec3 corners, vec2 barycentrics) {

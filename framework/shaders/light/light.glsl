@@ -5,7 +5,7 @@
 #include "base/sampling.glsl"
 #include "light/emission.glsl"
 #include "light/environment.glsl"
-#include "world/surface.glsl"
+#include "surface/surface.glsl"
 
 /// A point of a light, found without knowing who looks: it can be stored and seen from elsewhere.
 struct LightPoint {
@@ -121,7 +121,7 @@ Ray shadowRay(World w, Surface s, LightSample l) {
     Ray ray;
     if (l.distance >= FAR) ray = spawnRay(w, s, l.direction);
     else ray = rayBetween(s, s.position + l.distance * l.direction, l.gap);
-    ray.panes = uint(l.delta);
+    ray.flags = l.delta ? RAY_THROUGH_PANES : 0u;
     return ray;
 }
 

@@ -3,12 +3,14 @@
 //
 // The includer defines, before it includes this file,
 //   struct Path { ... };                                      all that a pixel keeps from ray to ray and from item to item
-//   uint pathItems();                                         paths of a pixel, walked one after the other (samples, shifts, ...)
+//   uint pathItems();                                         paths of a pixel, walked one after the other (samples, shifts, ...); at least 1
 //   World pathWorld(uint item);                               that the item's rays are traced in
-//   bool pathBegin(inout Path path, World w, ivec2 pixel, uint item);  starts an item; false: it has no ray. At item 0 `path` holds nothing yet
+//   void pathStart(inout Path path, World w, ivec2 pixel);    before item 0, when `path` holds nothing yet; w is item 0's
+//   bool pathBegin(inout Path path, World w, ivec2 pixel, uint item);  begins an item; false: it has no ray
 //   Ray pathRay(inout Path path, out bool anyHit, out uint purpose);   the next ray; anyHit: only whether it hits matters; RAYS_... for the ledger
-//   bool pathStep(inout Path path, World w, Hit hit);         goes on from what that ray hit; false: the item is finished
-//   void pathEnd(Path path, World w, ivec2 pixel);            after the last item
+//   bool pathStep(inout Path path, World w, Hit hit);         goes on from what that ray hit; false: there is no other ray
+//   void pathItemEnd(inout Path path, World w, ivec2 pixel, uint item);  after the item's last ray, also where it had none
+//   void pathEnd(Path path, ivec2 pixel);                     after the last item
 // pathRay may be called several times for one ray, and so has to give the same one. The whole subgroup walks in step: its paths alternate
 // between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both lanes that go their own way and lanes
 // that start their next path early).
@@ -50,6 +52,7 @@ void driverWalk(ivec2 pixel) {
     World world;
     for (uint item = 0u; item < items; ++item) {
         world = pathWorld(item);
+        if (inside && item == 0u) pathStart(path, world, pixel);
         bool live = inside && pathBegin(path, world, pixel, item);
         bool phase = false;  // which kind of ray the subgroup traces now
         while (subgroupAny(live)) {
@@ -68,8 +71,9 @@ void driverWalk(ivec2 pixel) {
             }
             phase = !phase;
         }
+        if (inside) pathItemEnd(path, world, pixel, item);
     }
-    if (inside) pathEnd(path, world, pixel);
+    if (inside) pathEnd(path, pixel);
 }
 
 void main() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Node references and the memory that both software traversals read; scene/bvh.h says how nodes and triangles are laid out.
 #include "world/world.h"
-#include "trace/ray.h"
+#include "world/ray.h"
 
 const uint REF_LEAF = 0x80000000u;      // | (count - 1) << 28 | REF_MASKED when one of the triangles has an alpha mask | first triangle
 const uint REF_MASKED = 0x08000000u;

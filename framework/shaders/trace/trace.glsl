@@ -8,7 +8,7 @@
 // call site in a loop (trace/driver.glsl), and have all lanes of the subgroup reach it, those without a ray with tMax < 0.
 #include "texture/alpha.glsl"
 #include "trace/pane.glsl"
-#include "trace/ray.h"
+#include "world/ray.h"
 #include "world/world.h"
 #if defined(TRACE_PACKET)
 #include "trace/packet.glsl"

@@ -2,7 +2,7 @@
 // What the shaders of the viewer's picture are told: how a port's numbers lie in memory and become colour, and where these go in the window.
 #ifndef LODESTIR_PICTURE_H
 #define LODESTIR_PICTURE_H
-#include "../base/shared.h"
+#include "base/shared.h"
 
 LODESTIR_SHARED_BEGIN
 

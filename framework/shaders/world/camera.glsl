@@ -2,7 +2,7 @@
 // A thin-lens camera, or an orthographic one: film to ray and back.
 #include "base/math.glsl"
 #include "base/sampling.glsl"
-#include "trace/ray.h"
+#include "world/ray.h"
 #include "world/world.h"
 
 /// The point of the lens, relative to its centre. lens in [0,1]^2; uniform over the disk.

@@ -2,7 +2,7 @@
 // What a pixel's camera ray hit, with the film and lens sample that made the ray: all that later passes need to find the point again.
 #ifndef LODESTIR_PRIMARY_HIT_H
 #define LODESTIR_PRIMARY_HIT_H
-#include "../base/shared.h"
+#include "base/shared.h"
 
 LODESTIR_SHARED_BEGIN
 

@@ -2,7 +2,7 @@
 // For tests: a World whose arrays lie in the test's scratch memory. Pass 0 writes them, as in
 // `TestMaterials(testArray(TEST_MATERIALS)).at[0] = testMaterial();`, pass 1 reads them through testWorld(). Each array has 128 KiB.
 #include "base/test.glsl"
-#include "trace/ray.h"
+#include "world/ray.h"
 #include "world/world.h"
 
 const uint TEST_INSTANCES = 0u, TEST_PRIMITIVES = 1u, TEST_EMITTERS = 2u, TEST_POSITIONS = 3u, TEST_VERTICES = 4u, TEST_MATERIALS = 5u;

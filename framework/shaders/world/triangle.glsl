@@ -59,14 +59,3 @@ vec3 placeNormal(Placement p, vec3 n) {
 
 /// How much the transform enlarges volumes; negative where it mirrors.
 float placementDeterminant(Placement p) { return dot(p.row0, cross(p.row1, p.row2)); }
-
-/// World-space position of a point on a triangle of an instance. With last frame's World it is the previous position.
-vec3 positionOn(World w, uint instance, uint primitive, vec2 barycentrics) {
-    return placePoint(placementOf(w, instance), pointOn(w, cornersOf(w, primitive), barycentrics).position);
-}
-
-/// Does the instance show the triangle at its present level?
-bool isShown(World w, uint instance, uint primitive) {
-    uint level = w.instances.at[instance].mesh * LEVELS + min(w.levels.at[instance], LEVELS - 1u);
-    return primitive - w.meshLevels.at[level].firstPrimitive < w.meshLevels.at[level].primitiveCount;
-}

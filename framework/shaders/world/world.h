@@ -3,7 +3,7 @@
 // GLSL code loads it once (`World w = world();`), hands it on, and reads arrays as `w.positions.at[i]`.
 #ifndef LODESTIR_WORLD_H
 #define LODESTIR_WORLD_H
-#include "../base/shared.h"
+#include "base/shared.h"
 
 LODESTIR_SHARED_BEGIN
 

@@ -36,12 +36,11 @@ float directWeight(LightSample l, float pdfBsdf) {
 
 uint pathItems() { return uint(params.spp); }
 
-World scene = world();  // loaded once: it is the same for all samples
+World pathWorld(uint item) { return world(); }
 
-World pathWorld(uint item) { return scene; }
+void pathStart(inout Path p, World w, ivec2 pixel) { p.radiance = vec3(0); }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) p.radiance = vec3(0);
     uint sampleIndex = frameIndex() * uint(params.spp) + item;
     p.seed = pathSeed(uvec2(pixel), sampleIndex, runSeed());
     p.scatterings = 0;
@@ -114,6 +113,8 @@ bool pathStep(inout Path p, World w, Hit hit) {
     return !p.ends;
 }
 
-void pathEnd(Path p, World w, ivec2 pixel) { storeColor(pixel, vec4(p.radiance / float(params.spp), 1)); }
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
+
+void pathEnd(Path p, ivec2 pixel) { storeColor(pixel, vec4(p.radiance / float(params.spp), 1)); }
 
 #include "trace/driver.glsl"

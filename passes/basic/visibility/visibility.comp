@@ -18,6 +18,8 @@ uint pathItems() { return 1; }
 
 World pathWorld(uint item) { return world(); }
 
+void pathStart(inout Path p, World w, ivec2 pixel) {}
+
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
     p.place = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM);
@@ -48,8 +50,8 @@ vec2 motionOf(Path p, World w) {
     if (p.hit.primitive == NONE) {
         was = cameraProjectSky(before, p.ray.direction, p.film, p.lens);
     } else {
-        was = cameraProject(before, positionOn(before, p.hit.instance, p.hit.primitive, p.hit.barycentrics), p.lens);
-        is = cameraProject(w, positionOn(w, p.hit.instance, p.hit.primitive, p.hit.barycentrics), p.lens);
+        was = cameraProject(before, positionAt(before, pointOf(p.hit)), p.lens);
+        is = cameraProject(w, positionAt(w, pointOf(p.hit)), p.lens);
     }
     return was.z > 0 && is.z > 0 ? (was.xy - is.xy) * vec2(depthSize()) : vec2(0);
 #else
@@ -57,7 +59,7 @@ vec2 motionOf(Path p, World w) {
 #endif
 }
 
-void pathEnd(Path p, World w, ivec2 pixel) {
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
     PrimaryHit found;
     found.instance = p.hit.instance;
     found.primitive = p.hit.primitive;
@@ -77,5 +79,7 @@ void pathEnd(Path p, World w, ivec2 pixel) {
     storeNormal(pixel, vec4(s.shadingNormal, 0));
     storeAlbedo(pixel, vec4(bsdfAt(w, s).base, 1));
 }
+
+void pathEnd(Path p, ivec2 pixel) {}
 
 #include "trace/driver.glsl"

@@ -16,7 +16,7 @@ float filmTerm(World w, ivec2 p, uvec2 size, PrimaryHit hit) {
     }
     vec3 direction = ray.direction;
     if (hit.primitive != NONE) {
-        direction = safeNormalize(positionOn(w, hit.instance, hit.primitive, hit.barycentrics) - ray.origin, direction);
+        direction = safeNormalize(positionAt(w, pointOf(hit)) - ray.origin, direction);
         connection = connectionTerm(ray.origin, surfaceAt(w, hitOf(hit), direction));
     }
     float cosine = dot(direction, w.camera.forward);
@@ -28,7 +28,7 @@ float filmTerm(World w, ivec2 p, uvec2 size, PrimaryHit hit) {
 bool project(World to, ivec2 p, uvec2 size, inout PrimaryHit hit, vec3 direction, out ivec2 landing) {
     vec3 seen;
     if (hit.primitive == NONE) seen = cameraProjectSky(to, direction, filmOf(p, hit.film, size), hit.lens);
-    else seen = cameraProject(to, positionOn(to, hit.instance, hit.primitive, hit.barycentrics), hit.lens);
+    else seen = cameraProject(to, positionAt(to, pointOf(hit)), hit.lens);
     const float belowOne = 0.99999994;
     vec2 at = seen.xy * vec2(size);
     landing = min(ivec2(floor(at)), ivec2(size) - 1);

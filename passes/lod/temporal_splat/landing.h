@@ -2,11 +2,7 @@
 // Where last frame's path of a pixel lands in this frame, and what this frame's path of a pixel would have been in the last.
 #ifndef LODESTIR_LANDING_H
 #define LODESTIR_LANDING_H
-#ifdef __cplusplus
-#include <framework/shaders/base/shared.h>
-#else
 #include "base/shared.h"
-#endif
 
 LODESTIR_SHARED_BEGIN
 

@@ -4,203 +4,133 @@
 #version 460
 #include "pass.glsl"
 #include "film_projection.glsl"
+#include "lod/path_mapping.glsl"
 #include "restir/mis.glsl"
 #include "restir/neighbours.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
-#include "lod/vertex_mapping.glsl"
 #include "world/same_scene.glsl"
 
-const uint SCATTER = 0, SCATTER_BACK = 1, GATHER = 2, GATHER_BACK = 3;
+// How a pixel and its partner in last frame find each other.
+const uint SPLATTED = 0;     // by where the first hit is
+const uint REPROJECTED = 1;  // by motion
 
-struct Path {
-    Shift shift;
-    bool refresh;
-    bool running;        // the present item has begun a shift
-    ivec2 before;        // where the pixel was
-    bool hasBefore;
+struct Reuse {
     Reservoir own;
     SampleHit ownHit;
-    uint target;         // pixel that a scattered path goes to
-    float confidence;    // of the pixel of last frame that the present item is about
-    float pHat, W;       // of the path before it was shifted
+    bool refresh;
+    ivec2 before;        // where the pixel was
+    ivec2 landing;       // pixel that the present shift leads to
+    float confidence;    // of the pixel of last frame that the present shift is about, 0: there is none
+    float pHat, W;       // of last frame's path before it was shifted
     Origins origins;
 };
 
-World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 float capped(Reservoir r) { return cappedConfidence(confidence(r), params.cap); }
 
-uint pathItems() { return !historyValid() || params.cap == 0 ? 0 : params.backup > 0 ? 4 : 2; }
-World pathWorld(uint item) {
-    if ((item & 1) == 0) return scene;
+uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : params.backup > 0 ? 2 : 1; }
+World reuseWorld(uint partner, uint way) {
+    if (way == FORTH) return world();
     return worldPrev();
 }
 
-// Takes a vertex from `from` to `to`. False: it can't be found there. `jacobian` becomes that of its barycentric area.
-bool mapVertex(World from, World to, bool wanted, uint instance, inout uint primitive, inout vec2 barycentrics, vec2 coordinates, out float jacobian) {
-    jacobian = 1;
-    uint before = from.levels.at[instance], after = to.levels.at[instance];
-    if (before == after || isShown(to, instance, primitive)) return true;
-#if HAS_uv
-    if (!wanted) return false;
-    Placement placed = placementOf(scene, instance);  // the same there and back, so that tau can be undone
-    mat3 space = params.matching == matching_world ? transpose(mat3(placed.row0, placed.row1, placed.row2)) : mat3(1);
-    MappedPoint found = mapPoint(to, uv(), to.instances.at[instance].mesh, primitive, coordinates, before, after, params.vertexMapping != vertexMapping_uv_no_matching, space);
-    primitive = found.primitive;
-    barycentrics = found.barycentrics;
-    jacobian = found.jacobian;
-    return jacobian > 0;
-#else
-    return false;
-#endif
+LevelMapping levelMapping() {
+    bool maps = HAS_uv != 0 && params.vertexMapping != vertexMapping_triangle;
+    return LevelMapping(maps && params.vertexMapping != vertexMapping_reconnection_only, maps && params.vertexMapping != vertexMapping_primary_only,
+                        params.vertexMapping != vertexMapping_uv_no_matching, params.matching == matching_world);
 }
 
-bool mapsPrimary() { return params.vertexMapping != vertexMapping_triangle && params.vertexMapping != vertexMapping_reconnection_only; }
-bool mapsReconnection() { return params.vertexMapping != vertexMapping_triangle && params.vertexMapping != vertexMapping_primary_only; }
-
-// What is mapped for an item: what the pixel's centre sees, for SCATTER_BACK alone; the first hit of the path, where it is kept; x_k.
-const uint MAP_CENTRE = 0, MAP_PRIMARY = 1, MAP_RECONNECTION = 2, MAPS = 3;
-
-// Takes all that belongs to an item from the World `from` to the World `to`, at one place in the code: a map is many reads, and is compiled
-// wherever it is called. False: the path can't be found there. `jacobian` becomes that of both barycentric areas.
-bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, inout PrimaryHit first, inout Reservoir path, inout SampleHit hit, out float jacobian) {
-    bool keepsFirst = item == SCATTER || item == SCATTER_BACK;
-    uint kind = reconnectionKind(unpackShape(path.shape));
-    bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && kind != RC_LIGHT;
-    jacobian = 1;
-    for (uint k = item == SCATTER_BACK ? MAP_CENTRE : MAP_PRIMARY; k < MAPS; ++k) {
-        PrimaryHit at = k == MAP_CENTRE ? centre : first;
-        vec2 coordinates = hit.uv;
-        if (k == MAP_CENTRE) {
-            if (at.primitive != NONE) coordinates = uvOn(from, cornersOf(from, at.primitive), at.barycentrics, 0);
-        } else if (k == MAP_RECONNECTION) {
-            at.instance = path.rcInstance;
-            at.primitive = connects ? path.rcPrimitive : NONE;
-            at.barycentrics = hit.rc.barycentrics;
-            coordinates = hit.rc.uv;
-        } else if (!keepsFirst) {
-            continue;
-        }
-        float stretch = 1;
-        bool there = at.primitive == NONE ||
-                     mapVertex(from, to, k == MAP_RECONNECTION ? mapsReconnection() : mapsPrimary(), at.instance, at.primitive, at.barycentrics, coordinates, stretch);
-        if (k == MAP_CENTRE) {
-            // Tells how much of the confidence of last frame is left to the pixel, and asks nothing of the samples, as confidence must not.
-            p.origins.kept = there ? 1 : 0;
-            if (!holdsPath(path)) return false;
-            continue;
-        }
-        if (!there) return false;
-        jacobian *= stretch;
-        if (k == MAP_PRIMARY) {
-            first = at;
-        } else if (connects) {
-            path.rcPrimitive = at.primitive;
-            hit.rc.barycentrics = at.barycentrics;
-        }
-    }
-    return true;
+void reuseStart(inout Reuse r, World w, ivec2 pixel) {
+    r.origins = Origins(0, 0, 0, 0);
+    if (reusePartners() == 0) return;
+    r.own = reservoirs(place(pixel));
+    r.ownHit = samples(place(pixel));
+    r.before = pixelBefore(pixel, motion(pixel));
+    r.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(w, worldPrev()));
 }
 
-void begin(inout Path p, ivec2 pixel) {
-    p.own = reservoirs(place(pixel));
-    p.ownHit = samples(place(pixel));
-    p.before = pixelBefore(pixel, motion(pixel));
-    p.hasBefore = inside(p.before);
-    p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, worldPrev()));
-    p.origins = Origins(0, 0, 0, 0);
-}
-
-// Takes in what the item's shift has given.
-void finish(inout Path p, ivec2 pixel, uint item) {
-    bool good = p.running && p.shift.jacobian > 0;
-    if (item == SCATTER || item == GATHER) {
-        Landing landing = Landing(NONE, 0, p.shift.jacobian, p.pHat, p.confidence, uvec3(0));
-        Reservoir path = p.shift.path;
-        path.W = p.W;
-        if (good && item == SCATTER) {
-            landing.target = p.target;
-            landing.order = atomicAdd(OutCounts(passBlock().counts.address).at[p.target], 1);
-            storeShifted(place(pixel), path);
-            storeShiftedSamples(place(pixel), p.shift.hit);
-        } else if (good) {
-            landing.target = place(pixel);
-            storeGathered(place(pixel), path);
-            storeGatheredSamples(place(pixel), p.shift.hit);
-        }
-        if (item == SCATTER) storeLandings(place(pixel), landing);
-        else storeGatherings(place(pixel), landing);
-        return;
-    }
-    float from = good ? p.confidence * pHatFromReverse(target(p.shift.path), p.shift.jacobian) : 0;
-    if (item == SCATTER_BACK) p.origins.scattered = from;
-    else p.origins.gathered = from;
-}
-
-// Starts the shift of an item, to World `to`.
-bool start(inout Path p, World to, ivec2 pixel, uint item) {
-    bool back = item == SCATTER_BACK || item == GATHER_BACK, splats = item == SCATTER || item == SCATTER_BACK;
-    World from = scene;
-    if (!back) from = worldPrev();
-    if (!splats && !p.hasBefore) return false;
-    ivec2 past = splats ? pixel : p.before;  // whose confidence counts; of SCATTER_BACK that is not known yet
-    Reservoir path = p.own;
-    SampleHit hit = p.ownHit;
-    if (item != SCATTER_BACK) {
+ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
+    bool splats = partner == SPLATTED;
+    World from, now = to;
+    if (way == BACK) from = now = world();
+    else from = worldPrev();
+    Reservoir path = r.own;
+    SampleHit hit = r.ownHit;
+    r.confidence = 0;
+    if (!splats && !inside(r.before)) return shiftOfNothing();
+    // Whose confidence counts is not known yet where this frame's path is splatted back: it depends on where it lands.
+    if (!splats || way == FORTH) {
+        ivec2 past = splats ? pixel : r.before;
         Reservoir old = history(place(past));
-        p.confidence = capped(old);
-        if (p.confidence == 0) return false;
-        if (!back) {
+        r.confidence = capped(old);
+        if (r.confidence == 0 || (splats && !holdsPath(old))) return shiftOfNothing();
+        if (way == FORTH) {
             path = old;
             hit = historySamples(place(past));
-            p.pHat = target(path);
-            p.W = path.W;
+            r.pHat = target(path);
+            r.W = path.W;
         }
     }
-    if (item == SCATTER && !holdsPath(path)) return false;
-    PrimaryHit first = hit.hit;
-    float jacobian;
-    if (!mapPath(p, from, to, item, hits(place(pixel)), first, path, hit, jacobian)) return false;
-    if (!splats) {
-        ivec2 there = back ? p.before : pixel;
-        PrimaryHit centre = hits(place(pixel));
-        if (back) centre = hitsPrev(place(p.before));
-        return shiftStart(p.shift, to, path, hit, there, frameSize(), centre, jacobian, p.refresh);
-    }
-    ivec2 landing;
-    if (!project(to, pixel, frameSize(), first, cameraRay(from, filmOf(pixel, hit.hit.film, frameSize()), hit.hit.lens).direction, landing)) return false;
-    if (back) {
-        p.confidence = capped(history(place(landing)));
-        if (p.confidence == 0) return false;
-    }
-    p.target = place(landing);
-    jacobian *= jacobianRatio(filmTerm(to, landing, frameSize(), first), filmTerm(from, pixel, frameSize(), hit.hit));
-    return shiftStartAt(p.shift, to, path, hit, first, landing, frameSize(), jacobian, p.refresh);
-}
-
-bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) begin(p, pixel);
-    else finish(p, pixel, item - 1);
-    p.confidence = 0;
-    p.running = start(p, w, pixel, item);
-    return p.running;
-}
-
-Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
-bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
-
-void pathEnd(Path p, World w, ivec2 pixel) {
-    uint items = pathItems();
-    Landing nowhere = Landing(NONE, 0, 0, 0, 0, uvec3(0));
-    if (items == 0) {
-        storeLandings(place(pixel), nowhere);
-        p.origins = Origins(0, 0, 0, 0);
+    PrimaryHit centre = hits(place(pixel)), start = hit.hit;
+    uint wanted = !splats ? MAP_CONNECTED : way == FORTH ? MAP_CONNECTED | MAP_FIRST : MAP_CONNECTED | MAP_FIRST | MAP_CENTRE;
+    MappedPath mapped = mapPath(from, to, now, uv(), levelMapping(), wanted, centre, path, hit);
+    // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not.
+    if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;
+    if (!mapped.isThere) return shiftOfNothing();
+    PrimaryHit first = mapped.hit.hit;
+    hit.rc = mapped.hit.rc;
+    r.landing = pixel;
+    float jacobian = mapped.jacobian;
+    if (splats) {
+        if (!project(to, pixel, frameSize(), first, cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction, r.landing)) return shiftOfNothing();
+        if (way == BACK) {
+            r.confidence = capped(history(place(r.landing)));
+            if (r.confidence == 0) return shiftOfNothing();
+        }
+        jacobian *= jacobianRatio(filmTerm(to, r.landing, frameSize(), first), filmTerm(from, pixel, frameSize(), start));
+    } else if (way == BACK) {
+        r.landing = r.before;
+        first = hitsPrev(place(r.before));
     } else {
-        finish(p, pixel, items - 1);
+        first = centre;
     }
-    if (items < 4) storeGatherings(place(pixel), nowhere);
-    storeOrigins(place(pixel), p.origins);
+    return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
 }
 
-#include "trace/driver.glsl"
+// Last frame's path has arrived, or not.
+void arrive(inout Reuse r, ivec2 pixel, uint partner, Shift result) {
+    bool splats = partner == SPLATTED, good = result.jacobian > 0;
+    Landing landing = Landing(NONE, 0, result.jacobian, r.pHat, r.confidence, uvec3(0));
+    result.path.W = r.W;
+    if (good) landing.target = place(r.landing);
+    if (good && splats) {
+        landing.order = addCounts(landing.target, 1);
+        storeShifted(place(pixel), result.path);
+        storeShiftedSamples(place(pixel), result.hit);
+    } else if (good) {
+        storeGathered(place(pixel), result.path);
+        storeGatheredSamples(place(pixel), result.hit);
+    }
+    if (splats) storeLandings(place(pixel), landing);
+    else storeGatherings(place(pixel), landing);
+}
+
+void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result) {
+    if (way == FORTH) {
+        arrive(r, pixel, partner, result);
+        return;
+    }
+    float from = r.confidence * pHatFromReverse(target(result.path), result.jacobian);
+    if (partner == SPLATTED) r.origins.scattered = from;
+    else r.origins.gathered = from;
+}
+
+void reuseEnd(Reuse r, ivec2 pixel) {
+    Landing nowhere = Landing(NONE, 0, 0, 0, 0, uvec3(0));
+    if (reusePartners() < 1) storeLandings(place(pixel), nowhere);
+    if (reusePartners() < 2) storeGatherings(place(pixel), nowhere);
+    storeOrigins(place(pixel), r.origins);
+}
+
+#include "restir/reuse_driver.glsl"

@@ -6,5 +6,5 @@
 void main() {
     if (skip()) return;
     uint i = pixelIndex(pixel()), count = counts(i);
-    storeStarts(i, count > 0 ? atomicAdd(OutCursor(passBlock().cursor.address).at[0], count) : 0);
+    storeStarts(i, count > 0 ? addCursor(0, count) : 0);
 }

@@ -2,11 +2,7 @@
 // What became of one point of a mesh on its way to another level and back.
 #ifndef LODESTIR_VERTEX_MAPPING_CHECK_H
 #define LODESTIR_VERTEX_MAPPING_CHECK_H
-#ifdef __cplusplus
-#include <framework/shaders/base/shared.h>
-#else
 #include "base/shared.h"
-#endif
 
 LODESTIR_SHARED_BEGIN
 

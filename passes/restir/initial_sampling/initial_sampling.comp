@@ -11,31 +11,30 @@ struct Path {
     uint trees;
 };
 
-World scene = world();
-
 #if HAS_hits && HAS_worldPrev
-bool switchesLevels() { return historyValid() && scene.levels.at[scene.instanceCount] != 0; }
-bool switched(PrimaryHit h) { return h.primitive != NONE && scene.levels.at[h.instance] != worldPrev().levels.at[h.instance]; }
+bool switchesLevels(World w) { return historyValid() && w.levels.at[w.instanceCount] != 0; }
+bool switched(World w, PrimaryHit h) { return h.primitive != NONE && w.levels.at[h.instance] != worldPrev().levels.at[h.instance]; }
 uint mostTrees() { return max(uint(params.candidates), uint(params.switchCandidates)); }
 #else
-bool switchesLevels() { return false; }
-bool switched(PrimaryHit h) { return false; }
+bool switchesLevels(World w) { return false; }
+bool switched(World w, PrimaryHit h) { return false; }
 uint mostTrees() { return uint(params.candidates); }
 #endif
 
-uint pathItems() { return switchesLevels() ? mostTrees() : uint(params.candidates); }
+uint pathItems() { return switchesLevels(world()) ? mostTrees() : uint(params.candidates); }
 
-World pathWorld(uint item) { return scene; }
+World pathWorld(uint item) { return world(); }
+
+void pathStart(inout Path p, World w, ivec2 pixel) {
+    treesStart(p.tree);
+    p.trees = uint(params.candidates);
+#if HAS_hits
+    p.centre = hits(pixelIndex(pixel));
+    if (switchesLevels(w) && switched(w, p.centre)) p.trees = mostTrees();
+#endif
+}
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) {
-        treesStart(p.tree);
-        p.trees = uint(params.candidates);
-#if HAS_hits
-        p.centre = hits(pixelIndex(pixel));
-        if (switchesLevels() && switched(p.centre)) p.trees = mostTrees();
-#endif
-    }
     if (item >= p.trees) return false;
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex() * mostTrees() + item, runSeed());
@@ -63,7 +62,9 @@ bool pathStep(inout Path p, World w, Hit hit) {
     return treeStep(p.tree, w, rules(), limits, hit, p.decisions);
 }
 
-void pathEnd(Path p, World w, ivec2 pixel) {
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
+
+void pathEnd(Path p, ivec2 pixel) {
     Reservoir r = treesReservoir(p.tree, p.trees);
     setConfidence(r, float(p.trees) / float(params.candidates));
     storeReservoirs(pixelIndex(pixel), r);

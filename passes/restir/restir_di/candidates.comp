@@ -22,10 +22,9 @@ struct Path {
     uvec2 decisions;
 };
 
-World scene = world();
-
 uint pathItems() { return 1; }
-World pathWorld(uint item) { return scene; }
+World pathWorld(uint item) { return world(); }
+void pathStart(inout Path p, World w, ivec2 pixel) {}
 
 bool startBsdf(inout Path p) {
     p.asksLight = false;
@@ -135,10 +134,12 @@ void mergeHistory(inout Path p, World w, ivec2 pixel) {
     p.kept.M = own.M + past.M;
 }
 
-void pathEnd(Path p, World w, ivec2 pixel) {
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
     mergeHistory(p, w, pixel);
     storeMerged(pixelIndex(pixel), p.kept);
     storeMirrored(pixel, vec4(p.mirrored, 1));
 }
+
+void pathEnd(Path p, ivec2 pixel) {}
 
 #include "trace/driver.glsl"

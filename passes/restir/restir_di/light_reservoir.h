@@ -2,11 +2,7 @@
 // A pixel's light point with its weight.
 #ifndef LODESTIR_LIGHT_RESERVOIR_H
 #define LODESTIR_LIGHT_RESERVOIR_H
-#ifdef __cplusplus
-#include <framework/shaders/base/shared.h>
-#else
 #include "base/shared.h"
-#endif
 
 LODESTIR_SHARED_BEGIN
 

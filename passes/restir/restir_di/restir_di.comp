@@ -11,10 +11,9 @@ struct Path {
     vec3 unshadowed, radiance;
 };
 
-World scene = world();
-
 uint pathItems() { return 1; }
-World pathWorld(uint item) { return scene; }
+World pathWorld(uint item) { return world(); }
+void pathStart(inout Path p, World w, ivec2 pixel) {}
 
 uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + 1); }
 
@@ -83,7 +82,9 @@ bool pathStep(inout Path p, World w, Hit hit) {
     return false;
 }
 
-void pathEnd(Path p, World w, ivec2 pixel) {
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
+
+void pathEnd(Path p, ivec2 pixel) {
     storeReservoirs(pixelIndex(pixel), p.kept);
     storeColor(pixel, vec4(p.radiance, 1));
 }

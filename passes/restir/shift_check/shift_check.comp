@@ -8,19 +8,18 @@
 #include "restir/neighbours.glsl"
 #include "world/same_scene.glsl"
 
-struct Path {
-    Shift shift;
+struct Reuse {
     Reservoir path;     // before the round trip
     SampleHit hit;
+    Reservoir shifted;  // on its way back
+    SampleHit shiftedHit;
     ivec2 partner;
     bool paired, refresh;
     float jacobian;     // of the way there
-    float shifted;      // p^ there
     float confidence;   // of the other pixel's reservoir
     ShiftCheck checks[2];
 };
 
-World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 
 #if HAS_history
@@ -31,46 +30,50 @@ PrimaryHit partnerCentre(ivec2 p) { return hitsPrev(place(p)); }
 bool mayPair() { return historyValid(); }
 World partnerWorld() { return worldPrev(); }
 ivec2 choosePartner(ivec2 pixel) { return pixelBefore(pixel, motion(pixel)); }
-bool alike(ivec2 pixel, ivec2 q) { return true; }
+bool alike(World w, ivec2 pixel, ivec2 q) { return true; }
 #else
 const bool BETWEEN_FRAMES = false;
 Reservoir partnerReservoir(ivec2 p) { return reservoirs(place(p)); }
 SampleHit partnerSample(ivec2 p) { return samples(place(p)); }
 PrimaryHit partnerCentre(ivec2 p) { return hits(place(p)); }
 bool mayPair() { return true; }
-World partnerWorld() { return scene; }
+World partnerWorld() { return world(); }
 ivec2 choosePartner(ivec2 pixel) {
     return pixelInDisk(pixel, params.radius, random2(resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt()), 0, RANDOM_FREE));
 }
-bool alike(ivec2 pixel, ivec2 q) {
-    return q != pixel && similarViews(pixelView(scene, hits(place(pixel))), pixelView(scene, hits(place(q))), params.normal, params.depth);
+bool alike(World w, ivec2 pixel, ivec2 q) {
+    return q != pixel && similarViews(pixelView(w, hits(place(pixel))), pixelView(w, hits(place(q))), params.normal, params.depth);
 }
 #endif
 
-bool isHere(uint item) { return item == 0 || item == 3; }  // the shift leads to this pixel
+// Whose path makes the round trip.
+const uint OF_PARTNER = 0;
+const uint OF_PIXEL = 1;
 
-uint pathItems() { return 4; }
-World pathWorld(uint item) {
-    if (isHere(item)) return scene;
+bool leadsHere(uint trip, uint way) { return (trip == OF_PARTNER) == (way == FORTH); }
+
+uint reusePartners() { return 2; }
+World reuseWorld(uint trip, uint way) {
+    if (leadsHere(trip, way)) return world();
     return partnerWorld();
 }
 
-void begin(inout Path p, ivec2 pixel) {
-    p.checks[0] = p.checks[1] = ShiftCheck(0, 0, 0, 0, 0, 0, 0, 0, 1);
-    p.paired = false;
+void reuseStart(inout Reuse r, World w, ivec2 pixel) {
+    r.checks[0] = r.checks[1] = ShiftCheck(0, 0, 0, 0, 0, 0, 0, 0, 1);
+    r.paired = false;
     if (!mayPair()) return;
-    p.partner = choosePartner(pixel);
-    if (!inside(p.partner) || !alike(pixel, p.partner)) return;
-    p.paired = true;
-    p.refresh = params.suffix == suffix_walked || (BETWEEN_FRAMES && params.suffix == suffix_automatic && !sameScene(scene, partnerWorld()));
+    r.partner = choosePartner(pixel);
+    if (!inside(r.partner) || !alike(w, pixel, r.partner)) return;
+    r.paired = true;
+    r.refresh = params.suffix == suffix_walked || (BETWEEN_FRAMES && params.suffix == suffix_automatic && !sameScene(w, partnerWorld()));
 }
 
 // Is it the path that set out? F and G are compared elsewhere.
-bool samePath(Path p) {
-    Reservoir a = p.path, b = p.shift.path;
-    PrimaryHit x = p.hit.hit, y = p.shift.hit.hit;
+bool samePath(Reuse r, Shift returned) {
+    Reservoir a = r.path, b = returned.path;
+    PrimaryHit x = r.hit.hit, y = returned.hit.hit;
     bool connected = unpackShape(a.shape).k > 0;
-    bool target = !connected || (a.rcInstance == b.rcInstance && a.rcPrimitive == b.rcPrimitive && p.hit.rc.barycentrics == p.shift.hit.rc.barycentrics);
+    bool target = !connected || (a.rcInstance == b.rcInstance && a.rcPrimitive == b.rcPrimitive && r.hit.rc.barycentrics == returned.hit.rc.barycentrics);
     return a.seed == b.seed && a.shape == b.shape && target && x.instance == y.instance && x.primitive == y.primitive &&
            x.film == y.film && x.lens == y.lens;
 }
@@ -92,76 +95,74 @@ float misError(vec2 confidences, float pHat, float fromReverse, float fromForwar
 }
 
 // The way there has ended.
-void arrive(inout Path p, inout ShiftCheck check) {
-    p.jacobian = p.shift.jacobian;
-    p.shifted = target(p.shift.path);
+void arrive(inout Reuse r, inout ShiftCheck check, Shift there) {
+    r.jacobian = there.jacobian;
+    r.shifted = there.path;
+    r.shifted.W = r.path.W;
+    r.shiftedHit = there.hit;
     check.outcome = CHECK_TRIED;
-    check.shape = p.path.shape;
-    if (p.jacobian > 0) {
+    check.shape = r.path.shape;
+    if (r.jacobian > 0) {
         check.outcome |= CHECK_THERE;
-        check.energy = target(p.path) * p.path.W;
-        check.energyShifted = p.shifted * p.jacobian * p.path.W;
-        check.stretch = p.shift.path.G / p.path.G;
-        if (p.path.lightPdf > 0 && reconnectionKind(p.shift.shape) == RC_TO_LIGHT) check.stretch *= p.path.lightPdf / p.shift.path.lightPdf;
+        check.energy = target(r.path) * r.path.W;
+        check.energyShifted = target(r.shifted) * r.jacobian * r.path.W;
+        check.stretch = r.shifted.G / r.path.G;
+        if (r.path.lightPdf > 0 && reconnectionKind(there.shape) == RC_TO_LIGHT) check.stretch *= r.path.lightPdf / r.shifted.lightPdf;
     } else {
         // What the neighbour has no part in is the canonical pixel's alone.
-        check.errorMis = misError(vec2(confidence(p.path), p.confidence), target(p.path), 0, 0);
+        check.errorMis = misError(vec2(confidence(r.path), r.confidence), target(r.path), 0, 0);
     }
 }
 
 // So has the way back.
-void comeBack(Path p, inout ShiftCheck check) {
+void comeBack(Reuse r, inout ShiftCheck check, Shift returned) {
     if ((check.outcome & CHECK_THERE) == 0) return;
-    float back = p.shift.jacobian, pHat = target(p.path), returned = target(p.shift.path), mine = confidence(p.path);
+    float back = returned.jacobian, pHat = target(r.path), pHatThere = target(r.shifted), pHatBack = target(returned.path), mine = confidence(r.path);
     if (back > 0) {
-        check.outcome |= CHECK_BACK | (samePath(p) ? CHECK_SAME : 0);
-        vec3 change = abs(p.shift.path.F - p.path.F);
-        check.errorF = maxComponent(change) / maxComponent(p.path.F);
-        check.errorJacobian = abs(p.jacobian * back - 1);
-        check.targetError = abs(returned * p.jacobian * back / pHat - 1);
+        check.outcome |= CHECK_BACK | (samePath(r, returned) ? CHECK_SAME : 0);
+        vec3 change = abs(returned.path.F - r.path.F);
+        check.errorF = maxComponent(change) / maxComponent(r.path.F);
+        check.errorJacobian = abs(r.jacobian * back - 1);
+        check.targetError = abs(pHatBack * r.jacobian * back / pHat - 1);
     }
     // The path where it went, as a neighbour's sample; and where it came from, as the canonical one.
-    float returnedHere = back > 0 ? pHatFromReverse(returned, back) : 0, shiftedBack = back > 0 ? pHatFromForward(p.shifted, back) : 0;
-    float there = misError(vec2(p.confidence, mine), p.shifted, returnedHere, pHatFromForward(pHat, p.jacobian));
-    float here = misError(vec2(mine, p.confidence), pHat, pHatFromReverse(p.shifted, p.jacobian), shiftedBack);
+    float returnedHere = pHatFromReverse(pHatBack, back), shiftedBack = pHatFromForward(pHatThere, back);
+    float there = misError(vec2(r.confidence, mine), pHatThere, returnedHere, pHatFromForward(pHat, r.jacobian));
+    float here = misError(vec2(mine, r.confidence), pHat, pHatFromReverse(pHatThere, r.jacobian), shiftedBack);
     check.errorMis = max(there, here);
 }
 
-bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) begin(p, pixel);
-    if (!p.paired) return false;
-    if (item == 2) comeBack(p, p.checks[0]);
-    Reservoir path;
-    SampleHit hit;
-    if (item == 0 || item == 2) {
-        bool own = item == 2;
-        p.path = own ? reservoirs(place(pixel)) : partnerReservoir(p.partner);
-        p.hit = own ? samples(place(pixel)) : partnerSample(p.partner);
-        p.confidence = own ? confidence(partnerReservoir(p.partner)) : confidence(reservoirs(place(pixel)));
-        if (!holdsPath(p.path)) {
-            p.shift.jacobian = 0;
-            return false;
-        }
-        path = p.path;
-        hit = p.hit;
-    } else {
-        if (!holdsPath(p.path)) return false;
-        arrive(p, p.checks[item >> 1]);
-        if (p.jacobian == 0) return false;
-        path = p.shift.path;
-        path.W = p.path.W;
-        hit = p.shift.hit;
+ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
+    if (!r.paired) return shiftOfNothing();
+    if (way == FORTH) {
+        bool own = trip == OF_PIXEL;
+        r.path = own ? reservoirs(place(pixel)) : partnerReservoir(r.partner);
+        r.hit = own ? samples(place(pixel)) : partnerSample(r.partner);
+        r.confidence = own ? confidence(partnerReservoir(r.partner)) : confidence(reservoirs(place(pixel)));
+        r.jacobian = 0;
     }
-    bool here = isHere(item);
-    ivec2 to = here ? pixel : p.partner;
+    if (!holdsPath(r.path) || (way == BACK && r.jacobian == 0)) return shiftOfNothing();
+    Reservoir path = r.path;
+    SampleHit hit = r.hit;
+    if (way == BACK) {
+        path = r.shifted;
+        hit = r.shiftedHit;
+    }
+    bool here = leadsHere(trip, way);
+    ivec2 to = here ? pixel : r.partner;
     PrimaryHit centre;
     if (here) centre = hits(place(to));
     else centre = partnerCentre(to);
-    return shiftStart(p.shift, w, path, hit, to, frameSize(), centre, 1, p.refresh);
+    ShiftTask task = shiftTo(to, centre, path, hit);
+    task.refresh = r.refresh;
+    return task;
 }
 
-Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
-bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
+void reuseResult(inout Reuse r, ivec2 pixel, uint trip, uint way, Shift result) {
+    if (!r.paired || !holdsPath(r.path)) return;
+    if (way == FORTH) arrive(r, r.checks[trip], result);
+    else comeBack(r, r.checks[trip], result);
+}
 
 vec3 colorOf(ShiftCheck a) {
     if ((a.outcome & CHECK_TRIED) == 0) return vec3(0);
@@ -173,15 +174,14 @@ vec3 colorOf(ShiftCheck a) {
     return a.errorMis > params.tolerance ? vec3(0, 1, 1) : vec3(0, 0.25, 0);
 }
 
-void pathEnd(Path p, World w, ivec2 pixel) {
-    if (p.paired) comeBack(p, p.checks[1]);
+void reuseEnd(Reuse r, ivec2 pixel) {
     vec3 shown = vec3(0);
     for (uint i = 0; i < 2; ++i) {
-        storeChecks(2 * place(pixel) + i, p.checks[i]);
-        vec3 c = colorOf(p.checks[i]);
+        storeChecks(2 * place(pixel) + i, r.checks[i]);
+        vec3 c = colorOf(r.checks[i]);
         shown = c.r > 0.2 || c.b > 0.2 || shown.r > 0.2 || shown.b > 0.2 ? max(shown, c) : shown + c;
     }
     storeColor(pixel, vec4(shown, 1));
 }
 
-#include "trace/driver.glsl"
+#include "restir/reuse_driver.glsl"

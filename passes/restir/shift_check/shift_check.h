@@ -2,11 +2,7 @@
 // What became of one path on its way into another pixel or frame and back.
 #ifndef LODESTIR_SHIFT_CHECK_H
 #define LODESTIR_SHIFT_CHECK_H
-#ifdef __cplusplus
-#include <framework/shaders/base/shared.h>
-#else
 #include "base/shared.h"
-#endif
 
 LODESTIR_SHARED_BEGIN
 

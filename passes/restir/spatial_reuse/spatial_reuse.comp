@@ -7,24 +7,21 @@
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
 
-struct Path {
-    Shift shift;
+struct Reuse {
     Reservoir own;
     SampleHit ownHit;
     PixelView view;
     PairwiseMis pairs;
     float ownShare;      // m of the own path so far
-    ivec2 neighbour;
-    float confidence;    // of the neighbour, 0: none
-    float pHat;          // of the neighbour's path where it was made
-    float W;
+    ivec2 neighbour;     // the pixel itself: there is none
+    float confidence;    // of the neighbour
+    float pHat, W;       // of the neighbour's path where it was made
     Ris ris;
     Reservoir kept;
     SampleHit keptHit;
     vec3 radiance;       // sum of F w / p^ over the candidates
 };
 
-World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 
 Reservoir inputReservoir(ivec2 p) {
@@ -39,91 +36,84 @@ SampleHit inputSample(ivec2 p) {
 uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + argument(0)); }
 
 // Neighbour i of the pixel, which sees `mine`; the pixel itself where there is none.
-ivec2 neighbourOf(ivec2 pixel, PixelView mine, uint i) {
+ivec2 neighbourOf(World w, ivec2 pixel, PixelView mine, uint i) {
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
     if (!inside(q)) return pixel;
-    return similarViews(mine, pixelView(scene, hits(place(q))), params.normal, params.depth) ? q : pixel;
+    return similarViews(mine, pixelView(w, hits(place(q))), params.normal, params.depth) ? q : pixel;
 }
 
-void begin(inout Path p, ivec2 pixel) {
-    p.own = inputReservoir(pixel);
-    p.ownHit = inputSample(pixel);
-    p.view = pixelView(scene, hits(place(pixel)));
+uint reusePartners() { return uint(params.neighbours); }
+World reuseWorld(uint partner, uint way) { return world(); }
+
+void reuseStart(inout Reuse r, World w, ivec2 pixel) {
+    r.own = inputReservoir(pixel);
+    r.ownHit = inputSample(pixel);
+    r.view = pixelView(w, hits(place(pixel)));
     float sum = 0;
-    for (uint i = 0; i < uint(params.neighbours); ++i) {
-        ivec2 q = neighbourOf(pixel, p.view, i);
+    for (uint i = 0; i < reusePartners(); ++i) {
+        ivec2 q = neighbourOf(w, pixel, r.view, i);
         if (q != pixel) sum += confidence(inputReservoir(q));
     }
-    float mine = confidence(p.own);
-    p.pairs = params.mis == mis_pairwise ? pairwiseMis(mine, sum) : defensivePairwiseMis(mine, sum);
-    p.ownShare = p.pairs.start;
-    p.ris = risStart();
-    p.radiance = vec3(0);
-    p.kept = emptyReservoir(0);
-    p.keptHit = p.ownHit;
+    float mine = confidence(r.own);
+    r.pairs = params.mis == mis_pairwise ? pairwiseMis(mine, sum) : defensivePairwiseMis(mine, sum);
+    r.ownShare = r.pairs.start;
+    r.ris = risStart();
+    r.radiance = vec3(0);
+    r.kept = emptyReservoir(0);
+    r.keptHit = r.ownHit;
 }
 
 // Offers a candidate to the reservoir: its path here, weight w.
-void offer(inout Path p, ivec2 pixel, uint number, Reservoir path, SampleHit hit, float w) {
+void offer(inout Reuse r, ivec2 pixel, uint number, Reservoir path, SampleHit hit, float w) {
     float pHat = target(path);
-    if (pHat > 0) p.radiance += path.F * (w / pHat);
-    if (!risAdd(p.ris, w, random1(decisions(pixel), number, RANDOM_FREE + 1))) return;
-    p.kept = path;
-    p.keptHit = hit;
+    if (pHat > 0) r.radiance += path.F * (w / pHat);
+    if (!risAdd(r.ris, w, random1(decisions(pixel), number, RANDOM_FREE + 1))) return;
+    r.kept = path;
+    r.keptHit = hit;
 }
 
-// Takes in what a shift has given: even ones bring a neighbour's path here, odd ones the own path there.
-void finish(inout Path p, ivec2 pixel, uint item) {
-    if (p.confidence == 0) return;
-    Shift t = p.shift;
-    if ((item & 1) == 0) {
-        float pHat = target(t.path), m = neighbourMis(p.pairs, p.confidence, pHat, pHatFromForward(p.pHat, t.jacobian));
-        if (t.jacobian > 0) offer(p, pixel, item, t.path, t.hit, resamplingWeight(m, pHat, p.W, t.jacobian));
-    } else if (holdsPath(p.own)) {
-        p.ownShare += canonicalMis(p.pairs, p.confidence, target(p.own), pHatFromReverse(target(t.path), t.jacobian));
-    }
-}
-
-uint pathItems() { return 2 * uint(params.neighbours); }
-World pathWorld(uint item) { return scene; }
-
-bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) begin(p, pixel);
-    else finish(p, pixel, item - 1);
-    ivec2 to = p.neighbour;
-    Reservoir path = p.own;
-    SampleHit hit = p.ownHit;
-    if ((item & 1) == 0) {
-        p.neighbour = neighbourOf(pixel, p.view, item >> 1);
-        p.confidence = 0;
-        if (p.neighbour == pixel) return false;
+ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
+    ivec2 to = r.neighbour;
+    Reservoir path = r.own;
+    SampleHit hit = r.ownHit;
+    if (way == FORTH) {
+        r.neighbour = neighbourOf(w, pixel, r.view, partner);
+        r.confidence = 0;
+        if (r.neighbour == pixel) return shiftOfNothing();
         to = pixel;
-        path = inputReservoir(p.neighbour);
-        hit = inputSample(p.neighbour);
-        p.confidence = confidence(path);
-        p.pHat = target(path);
-        p.W = path.W;
+        path = inputReservoir(r.neighbour);
+        hit = inputSample(r.neighbour);
+        r.confidence = confidence(path);
+        r.pHat = target(path);
+        r.W = path.W;
     }
-    return shiftStart(p.shift, w, path, hit, to, frameSize(), hits(place(to)), 1, false) && p.confidence > 0;
+    if (r.confidence == 0) return shiftOfNothing();
+    return shiftTo(to, hits(place(to)), path, hit);
 }
 
-Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
-bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
+void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result) {
+    if (r.confidence == 0) return;
+    float pHat = target(result.path);
+    if (way == BACK) {
+        if (holdsPath(r.own)) r.ownShare += canonicalMis(r.pairs, r.confidence, target(r.own), pHatFromReverse(pHat, result.jacobian));
+    } else if (result.jacobian > 0) {
+        float m = neighbourMis(r.pairs, r.confidence, pHat, pHatFromForward(r.pHat, result.jacobian));
+        offer(r, pixel, WAYS * partner, result.path, result.hit, resamplingWeight(m, pHat, r.W, result.jacobian));
+    }
+}
 
-void pathEnd(Path p, World w, ivec2 pixel) {
-    uint items = pathItems();
-    finish(p, pixel, items - 1);
-    offer(p, pixel, items, p.own, p.ownHit, resamplingWeight(p.ownShare, target(p.own), p.own.W, 1));
-    p.kept.W = contributionWeight(p.ris, target(p.kept));
-    setConfidence(p.kept, p.pairs.canonical + p.pairs.neighbours);
+void reuseEnd(Reuse r, ivec2 pixel) {
+    offer(r, pixel, WAYS * reusePartners(), r.own, r.ownHit, resamplingWeight(r.ownShare, target(r.own), r.own.W, 1));
+    r.kept.W = contributionWeight(r.ris, target(r.kept));
+    setConfidence(r.kept, r.pairs.canonical + r.pairs.neighbours);
     if (argument(2) != 0) {
-        storeReservoirs(place(pixel), p.kept);
-        storeSamples(place(pixel), p.keptHit);
+        storeReservoirs(place(pixel), r.kept);
+        storeSamples(place(pixel), r.keptHit);
     } else {
-        storeReservoirsBetween(place(pixel), p.kept);
-        storeSamplesBetween(place(pixel), p.keptHit);
+        storeReservoirsBetween(place(pixel), r.kept);
+        storeSamplesBetween(place(pixel), r.keptHit);
     }
-    if (argument(0) + 1 == uint(params.rounds)) storeColor(pixel, vec4(p.radiance, 1));
+    if (argument(0) + 1 == uint(params.rounds)) storeColor(pixel, vec4(r.radiance, 1));
 }
 
-#include "trace/driver.glsl"
+#include "restir/reuse_driver.glsl"

@@ -8,82 +8,84 @@
 #include "restir/neighbours.glsl"
 #include "world/same_scene.glsl"
 
-struct Path {
-    Shift shift;
+struct Reuse {
     Reservoir own, past;
     SampleHit ownHit, pastHit;
     ivec2 before;       // where the pixel was
     float confidence;   // of the past path, capped; 0: none
     bool refresh;
-    float jacobian;     // of the past path's shift, which gave `past` and `pastHit`
     float pastTarget;   // p^ of the past path where it was made
+    float jacobian;     // of its shift, after which `past` and `pastHit` are the path in this frame
+    float back;         // what the own path's target would have been in last frame, by the area of this one
 };
 
-World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 
-uint pathItems() { return historyValid() ? 2 : 0; }
-World pathWorld(uint item) {
-    if (item == 0) return scene;
+uint reusePartners() { return historyValid() ? 1 : 0; }
+World reuseWorld(uint partner, uint way) {
+    if (way == FORTH) return world();
     return worldPrev();
 }
 
-void begin(inout Path p, ivec2 pixel) {
-    p.own = reservoirs(place(pixel));
-    p.ownHit = samples(place(pixel));
-    p.before = pixelBefore(pixel, motion(pixel));
-    p.confidence = 0;
-    p.jacobian = 0;
-    if (!historyValid()) return;
-    if (!inside(p.before)) return;
+void reuseStart(inout Reuse r, World w, ivec2 pixel) {
+    r.own = reservoirs(place(pixel));
+    r.ownHit = samples(place(pixel));
+    r.before = pixelBefore(pixel, motion(pixel));
+    r.confidence = r.jacobian = r.back = 0;
+    if (!historyValid() || !inside(r.before)) return;
     World last = worldPrev();
-    PixelView here = pixelView(scene, hits(place(pixel))), there = pixelView(last, hitsPrev(place(p.before)));
+    PixelView here = pixelView(w, hits(place(pixel))), there = pixelView(last, hitsPrev(place(r.before)));
     if (params.depth < 1e6 && !similarViews(here, there, params.normal, params.depth)) return;
-    p.past = history(place(p.before));
-    p.pastHit = historySamples(place(p.before));
-    p.pastTarget = target(p.past);
-    p.confidence = cappedConfidence(confidence(p.past), params.cap * confidence(p.own));
-    p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, last));
+    r.past = history(place(r.before));
+    r.pastHit = historySamples(place(r.before));
+    r.pastTarget = target(r.past);
+    r.confidence = cappedConfidence(confidence(r.past), params.cap * confidence(r.own));
+    r.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(w, last));
 }
 
-bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    if (item == 0) begin(p, pixel);
-    if (p.confidence == 0) return false;
-    if (item == 0) return shiftStart(p.shift, w, p.past, p.pastHit, pixel, frameSize(), hits(place(pixel)), 1, p.refresh);
-    float W = p.past.W;
-    p.jacobian = p.shift.jacobian;
-    p.past = p.shift.path;
-    p.past.W = W;
-    p.pastHit = p.shift.hit;
-    return shiftStart(p.shift, w, p.own, p.ownHit, p.before, frameSize(), hitsPrev(place(p.before)), 1, p.refresh);
+ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
+    if (r.confidence == 0) return shiftOfNothing();
+    ShiftTask task;
+    if (way == FORTH) task = shiftTo(pixel, hits(place(pixel)), r.past, r.pastHit);
+    else task = shiftTo(r.before, hitsPrev(place(r.before)), r.own, r.ownHit);
+    task.refresh = r.refresh;
+    return task;
 }
 
-Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
-bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
+void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result) {
+    if (r.confidence == 0) return;
+    if (way == BACK) {
+        r.back = pHatFromReverse(target(result.path), result.jacobian);
+        return;
+    }
+    float W = r.past.W;
+    r.jacobian = result.jacobian;
+    r.past = result.path;
+    r.past.W = W;
+    r.pastHit = result.hit;
+}
 
-void pathEnd(Path p, World w, ivec2 pixel) {
-    if (pathItems() == 0) begin(p, pixel);
-    Reservoir kept = p.own;
-    SampleHit keptHit = p.ownHit;
-    float mine = confidence(p.own);
-    if (p.confidence > 0) {
+void reuseEnd(Reuse r, ivec2 pixel) {
+    Reservoir kept = r.own;
+    SampleHit keptHit = r.ownHit;
+    float mine = confidence(r.own);
+    if (r.confidence > 0) {
         // Generalised balance heuristic of two (Lin et al. 2022, Eq. 36).
-        float back = p.shift.jacobian > 0 ? pHatFromReverse(target(p.shift.path), p.shift.jacobian) : 0;
-        float mOwn = balanceMis(mine * target(p.own), p.confidence * back);
-        float mPast = balanceMis(p.confidence * pHatFromForward(p.pastTarget, p.jacobian), mine * target(p.past));
+        float mOwn = balanceMis(mine * target(r.own), r.confidence * r.back);
+        float mPast = balanceMis(r.confidence * pHatFromForward(r.pastTarget, r.jacobian), mine * target(r.past));
         Ris ris = risStart();
         uvec2 decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
         vec2 u = random2(decisions, 0, RANDOM_FREE);
-        risAdd(ris, resamplingWeight(mOwn, target(p.own), p.own.W, 1), u.x);
-        if (risAdd(ris, p.jacobian > 0 ? resamplingWeight(mPast, target(p.past), p.past.W, p.jacobian) : 0, u.y)) {
-            kept = p.past;
-            keptHit = p.pastHit;
+        risAdd(ris, resamplingWeight(mOwn, target(r.own), r.own.W, 1), u.x);
+        if (risAdd(ris, r.jacobian > 0 ? resamplingWeight(mPast, target(r.past), r.past.W, r.jacobian) : 0, u.y)) {
+            kept = r.past;
+            keptHit = r.pastHit;
         }
         kept.W = contributionWeight(ris, target(kept));
-        setConfidence(kept, mine + p.confidence);
+        setConfidence(kept, mine + r.confidence);
     }
     storeReservoirs(place(pixel), kept);
     storeSamples(place(pixel), keptHit);
 }
 
-#include "trace/driver.glsl"
+#include "restir/reuse_driver.glsl"

@@ -2,19 +2,15 @@
 // The surface that a ray has hit: where it is, which way it faces, and rays that leave it.
 #include "base/math.glsl"
 #include "base/pack.glsl"
+#include "surface/surface_point.glsl"
 #include "texture/material_map.glsl"
-#include "trace/ray.h"
-#include "world/primary_hit.h"
-#include "world/rounding.glsl"
 #include "world/scene_facts.glsl"
-#include "world/triangle.glsl"
-#include "world/world.h"
 
 struct Surface {
     vec3 position;       // interpolated from the corners: origin + t * direction would carry the error of t off the triangle
     vec3 normal;         // of the triangle, unit, towards the viewer
     float twiceArea;     // of the triangle, world space
-    float rounding;      // of the position, and of where rays meet the triangle, along its normal (world/rounding.glsl)
+    float rounding;      // of the position, and of where rays meet the triangle, along its normal (surface/rounding.glsl)
     vec3 shadingNormal;  // unit, towards the viewer; its mirror direction lies above the triangle
     vec2 uv;             // set 0
     vec2 barycentrics;
@@ -80,9 +76,7 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     s.normal = s.frontFace ? front : -front;
     s.rounding = planeRounding(w, hit.instance, placement, point, s.position, s.normal, s.twiceArea);
 
-    vec3 weights = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics), smoothNormal = vec3(0.0);
-    for (int i = 0; i < 3; ++i) smoothNormal += weights[i] * unpackNormal(w.vertices.at[corners[i]].normal);
-    vec3 n = safeNormalize(placeNormal(placement, smoothNormal) * mirror, front);
+    vec3 n = safeNormalize(placeNormal(placement, smoothNormalOn(w, corners, hit.barycentrics)) * mirror, front);
     // Files with normals that point inwards are common enough: only the normal's line is trusted, the side comes from the winding.
     n = dot(n, front) < 0.0 ? -n : n;
     s.frame = mat3(vec3(0.0), vec3(0.0), n);
@@ -115,25 +109,4 @@ Ray rayBetween(Surface s, vec3 target, float gap) {
     vec3 origin = spawnOrigin(s, target - s.position);
     vec3 direction = target - origin;
     return Ray(origin, 0.0, direction, 1.0 - clamp(gap * inversesqrt(max(dot(direction, direction), 1e-30)), ROUNDING, 0.5), 0u);
-}
-
-// Of where a segment ends and where a ray along it meets something there, relative to its length and at right angles to what is met: the terms
-// of rounding.glsl with s as long as the segment, for triangles of any but the sharpest angles.
-const float SEGMENT_ROUNDING = 32.0 * ROUNDING;
-
-/// How far before `position`, a point of a triangle, a segment that comes to it by `way` has to end, so that the triangle doesn't hide itself; world units.
-/// `perpendicular`: of the triangle, as long as twice its area.
-float segmentGap(World w, uint instance, Placement placement, TrianglePoint point, vec3 perpendicular, vec3 position, vec3 way) {
-    float twiceArea = max(length(perpendicular), 1e-30), reach = length(way);
-    float cosine = abs(dot(perpendicular, way)) / max(twiceArea * reach, 1e-30);
-    return (2.0 * planeRounding(w, instance, placement, point, position, perpendicular / twiceArea, twiceArea) + SEGMENT_ROUNDING * reach) / max(cosine, 1e-6);
-}
-
-/// World-space position of a point on a triangle that a segment from `from` is to end at, and how far before.
-vec3 segmentEnd(World w, uint instance, uint primitive, vec2 barycentrics, vec3 from, out float gap) {
-    Placement placement = placementOf(w, instance);
-    TrianglePoint point = pointOn(w, cornersOf(w, primitive), barycentrics);
-    vec3 position = placePoint(placement, point.position);
-    gap = segmentGap(w, instance, placement, point, placeNormal(placement, cross(point.edge1, point.edge2)), position, position - from);
-    return position;
 }

@@ -4,7 +4,7 @@
 // passes: 2
 #version 460
 #include "base/random.glsl"
-#include "world/surface.glsl"
+#include "surface/surface.glsl"
 #include "world/test_world.glsl"
 layout(local_size_x = 64) in;
 
@@ -50,7 +50,7 @@ void main() {
     vec2 p = barycentrics;
     vec3 place = instance == 0u ? vec3(p, 0.0) : instance == 1u ? vec3(10.0, 2.0 * p.x - 4.0, p.y + 7.0) : vec3(-p.x, p.y, 0.0);
     EXPECT_NEAR(s.position, place, 1e-5);
-    EXPECT_NEAR(positionOn(w, instance, primitive, barycentrics), place, 1e-5);
+    EXPECT_NEAR(positionAt(w, SurfacePoint(instance, primitive, barycentrics)), place, 1e-5);
     EXPECT_NEAR(s.uv, barycentrics, 1e-6);
 
     // Which way it faces. The mirrored instance keeps its front: the winding is turned round with it.
@@ -93,7 +93,7 @@ void main() {
 
     // A segment to the point itself ends before the triangle, but no farther from it than rounding asks for.
     float gap;
-    vec3 from = s.position + s.normal + 0.5 * away, end = segmentEnd(w, instance, primitive, barycentrics, from, gap);
+    vec3 from = s.position + s.normal + 0.5 * away, end = segmentEnd(w, SurfacePoint(instance, primitive, barycentrics), from, gap);
     EXPECT_NEAR(end, s.position, 1e-6);
     float height = gap * abs(dot(normalize(end - from), s.normal));
     EXPECT_TRUE(height > s.rounding && height < 4.0 * s.rounding + 1e-5);

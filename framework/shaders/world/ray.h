@@ -2,7 +2,7 @@
 // A ray and what it hits, shared by C++ and GLSL.
 #ifndef LODESTIR_RAY_H
 #define LODESTIR_RAY_H
-#include "../base/shared.h"
+#include "base/shared.h"
 
 LODESTIR_SHARED_BEGIN
 
@@ -11,8 +11,10 @@ struct Ray {
     float tMin;
     vec3 direction;  // need not be unit: t counts in its length
     float tMax;      // < 0: no ray (a lane that only keeps its subgroup company)
-    uint panes;      // 1: an any-hit ray goes on through what lets light straight through (trace/pane.glsl); 0: that ends it
+    uint flags;      // RAY_*
 };
+const uint RAY_THROUGH_PANES = 1u;  // an any-hit ray goes on through what lets light straight through (trace/pane.glsl); without, that ends it
+const uint RAY_LEVEL_BITS = 8u;     // from here on, up to bit 31: the ray's own bits where levels are chosen ray by ray
 
 struct Hit {
     float t;            // of an any-hit ray that nothing ended, t and barycentrics are the share of light that is left (light/light.glsl)
@@ -22,6 +24,6 @@ struct Hit {
 };
 
 LODESTIR_SHARED_END
-LODESTIR_SHARED(Ray, "trace/ray.h")
-LODESTIR_SHARED(Hit, "trace/ray.h")
+LODESTIR_SHARED(Ray, "world/ray.h")
+LODESTIR_SHARED(Hit, "world/ray.h")
 #endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// tau for paths: what a path is kept by, taken to a World in which instances may show other levels (Real-Time Level-of-Detail Rendering with ReSTIR,
+// section 4).
+#include "lod/vertex_mapping.glsl"
+#include "restir/reservoir.glsl"
+#include "restir/sample_hit.h"
+#include "surface/surface_point.glsl"
+
+/// Which points pass from level to level, and how; the others are lost where the level has changed.
+struct LevelMapping {
+    bool primary;       // first hits
+    bool reconnection;  // x_k
+    bool matching;      // points of one texture coordinate are paired by distance; otherwise only one that alone has its coordinate has a partner
+    bool worldSpace;    // those distances are as `now` places the mesh, not as it was made
+};
+
+/// Takes a point of texture coordinate `uv` from one World to another. False: it can't be found there. `jacobian`: barycentric area there per area here.
+/// `now`: one of the two Worlds, the same there and back, so that tau can be undone.
+bool mapSurfacePoint(World from, World to, World now, UvIndex index, bool mapped, LevelMapping mapping, inout SurfacePoint p, vec2 uv, out float jacobian) {
+    jacobian = 1.0;
+    uint before = from.levels.at[p.instance], after = to.levels.at[p.instance];
+    if (before == after || isShown(to, p)) return true;
+    if (!mapped) return false;
+    Placement placed = placementOf(now, p.instance);
+    mat3 space = mapping.worldSpace ? transpose(mat3(placed.row0, placed.row1, placed.row2)) : mat3(1.0);
+    MappedPoint found = mapPoint(to, index, to.instances.at[p.instance].mesh, p.primitive, uv, before, after, mapping.matching, space);
+    p.primitive = found.primitive;
+    p.barycentrics = found.barycentrics;
+    jacobian = found.jacobian;
+    return jacobian > 0.0;
+}
+
+/// What is taken along: what a pixel's centre sees, which is no part of the path; the path's first hit; x_k.
+const uint MAP_CENTRE = 1u;
+const uint MAP_FIRST = 2u;
+const uint MAP_CONNECTED = 4u;
+
+struct MappedPath {
+    Reservoir path;
+    SampleHit hit;       // its first hit is `first`'s
+    bool centreIsThere;  // whether the centre's point is found; true where it isn't asked
+    bool isThere;        // whether the whole path is
+    float jacobian;      // of all barycentric areas
+};
+
+/// Takes all that `wanted` (MAP_*) says from one World to the other, at one place in the code: a map is many reads, and is compiled wherever it is called.
+MappedPath mapPath(World from, World to, World now, UvIndex index, LevelMapping mapping, uint wanted, PrimaryHit centre, Reservoir path, SampleHit hit) {
+    uint kind = reconnectionKind(unpackShape(path.shape));
+    bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && kind != RC_LIGHT;
+    MappedPath m = MappedPath(path, hit, true, holdsPath(path), 1.0);
+    for (uint part = MAP_CENTRE; part <= MAP_CONNECTED; part <<= 1) {
+        if ((wanted & part) == 0u || (part != MAP_CENTRE && !m.isThere)) continue;
+        SurfacePoint p = part == MAP_CENTRE ? pointOf(centre) : pointOf(hit.hit);
+        vec2 uv = hit.uv;
+        if (part == MAP_CENTRE) {
+            if (p.primitive != NONE) uv = uvAt(from, p);
+        } else if (part == MAP_CONNECTED) {
+            p = SurfacePoint(path.rcInstance, connects ? path.rcPrimitive : NONE, hit.rc.barycentrics);
+            uv = hit.rc.uv;
+        }
+        float stretch = 1.0;
+        bool there = p.primitive == NONE || mapSurfacePoint(from, to, now, index, part == MAP_CONNECTED ? mapping.reconnection : mapping.primary, mapping, p, uv, stretch);
+        if (part == MAP_CENTRE) {
+            m.centreIsThere = there;
+            continue;
+        }
+        m.isThere = there;
+        m.jacobian *= stretch;
+        if (part == MAP_FIRST) {
+            m.hit.hit.primitive = p.primitive;
+            m.hit.hit.barycentrics = p.barycentrics;
+        } else if (connects) {
+            m.path.rcPrimitive = p.primitive;
+            m.hit.rc.barycentrics = p.barycentrics;
+        }
+    }
+    return m;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// main() of a pass that reuses paths: a pixel's shifts, one after the other. Each partner of a pixel (a neighbour, the pixel's past, ...) costs two: the
+// path that is to be reused goes FORTH, and the path that it is weighed against goes BACK, so that either is known where the other was made.
+//
+// The includer defines, before it includes this file,
+//   struct Reuse { ... };                                  all that a pixel keeps from shift to shift
+//   uint reusePartners();                                  of a pixel
+//   World reuseWorld(uint partner, uint way);              that the shift leads to
+//   void reuseStart(inout Reuse r, World w, ivec2 pixel);  before the first shift; w is that shift's
+//   ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way);    where a path comes from and goes to; shiftOfNothing(): nowhere
+//   void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result);  what has become of it; jacobian 0: there is no such path
+//   void reuseEnd(Reuse r, ivec2 pixel);                   after the last shift
+// FORTH, BACK and what shifts are made of are in restir/shift.glsl. The pass has an input `rules`, those that the paths were made by.
+
+struct Path {
+    Shift shift;
+    Reuse reuse;
+};
+
+bool isShift(uint item) { return item < WAYS * reusePartners(); }
+uint pathItems() { return max(WAYS * reusePartners(), 1u); }
+World pathWorld(uint item) { return reuseWorld(item / WAYS, item % WAYS); }
+
+void pathStart(inout Path p, World w, ivec2 pixel) { reuseStart(p.reuse, w, pixel); }
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    ShiftTask task = shiftOfNothing();
+    if (isShift(item)) task = reuseTask(p.reuse, w, pixel, item / WAYS, item % WAYS);
+    return shiftStart(p.shift, w, task, frameSize());
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
+bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
+
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
+    if (isShift(item)) reuseResult(p.reuse, pixel, item / WAYS, item % WAYS, p.shift);
+}
+
+void pathEnd(Path p, ivec2 pixel) { reuseEnd(p.reuse, pixel); }
+
+#include "trace/driver.glsl"
