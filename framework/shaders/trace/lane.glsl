@@ -7,7 +7,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer La
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LaneTriangles { vec4 at[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer LaneInstances { TraceInstance at[]; };
 
-const uint LANE_STACK = 2u * 64u;  // scene/bvh.h, bvhStack, for the top level and a mesh
+const uint LANE_STACK = 2u * 64u;  // scene/bvh/bvh.h, bvhStack, for the top level and a mesh
 
 Hit traceRay(World w, Ray ray, bool anyHit) {
     vec3 origin = ray.origin, direction = ray.direction;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stack that a packet shares: 64 references (scene/bvh.h, bvhStack), entry i in lane i % 8 of word i / 8.
+// The stack that a packet shares: 64 references (scene/bvh/bvh.h, bvhStack), entry i in lane i % 8 of word i / 8.
 #include "trace/spread.glsl"
 
 struct PacketStack {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Node references and the memory that both software traversals read; scene/bvh.h says how nodes and triangles are laid out.
+// Node references and the memory that both software traversals read; scene/bvh/bvh.h says how nodes and triangles are laid out.
 #include "world/world.h"
 #include "world/ray.h"
 

@@ -27,7 +27,7 @@ struct PrimitiveRecord {
 // Where an instance stands and what it shows. Rows of 3x4 matrices, point p maps to (dot(row0.xyz, p) + row0.w, ...).
 struct InstanceRecord {
     vec4 toWorld[3];
-    vec4 rounding;    // of its linear part M and translation t, sizes taken by element: |M^-1| |t|, and what |M^-1| |M| mixes (scene/bvh.h, traceRounding)
+    vec4 rounding;    // of its linear part M and translation t, sizes taken by element: |M^-1| |t|, and what |M^-1| |M| mixes (scene/bvh/bvh.h, traceRounding)
     uint mesh;
     uint firstLight;  // index of the light of its mesh's first emissive triangle, NONE when it has none
     uint flags;       // INSTANCE_*
@@ -36,7 +36,7 @@ struct InstanceRecord {
 const uint INSTANCE_MIRRORED = 1u;  // the way from the file's vertices to the world turns triangles inside out
 const uint INSTANCE_HIDDEN = 2u;    // nothing is left of it
 
-// The same instance as traversal reads it: world space to grid steps of the mesh (scene/bvh.h, BvhGrid). With the origin that triangles are measured
+// The same instance as traversal reads it: world space to grid steps of the mesh (scene/bvh/bvh.h, BvhGrid). With the origin that triangles are measured
 // from in world space, o = (row0.w, row1.w, row2.w), a point p maps to (dot(row0.xyz, p - o), ...): subtracted first, so that precision
 // doesn't depend on how far from the origin the instance is. 64 bytes, loaded by 8 lanes.
 struct TraceInstance {
@@ -194,7 +194,7 @@ LODESTIR_ARRAY(LightArray, LightRecord)
 LODESTIR_ARRAY(EnvironmentArray, EnvironmentTexel)
 
 struct World {
-    // Traversal (scene/bvh.h has the layouts).
+    // Traversal (scene/bvh/bvh.h has the layouts).
     uint64_t nodes;                                  // 64-byte nodes of all mesh levels, then of the top level
     uint64_t triangles;                              // 48-byte triangles in grid space, BVH order; index = Hit.primitive
     uint64_t traceInstances;                         // TraceInstance of each instance
