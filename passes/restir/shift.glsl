@@ -172,6 +172,119 @@ const uint TOWARDS_LIGHT = 1u;   // a light sample, by the path's numbers or sto
 const uint TOWARDS_TARGET = 2u;  // x_k
 const uint TOWARDS_SUFFIX = 3u;  // what follows x_k, in the stored direction
 
+/// How the path leaves a vertex.
+struct Departure {
+    uint towards;        // TOWARDS_*
+    uint lobe;
+    vec3 way;
+    BsdfDirection next;  // TOWARDS_SAMPLE
+    LightSample light;   // TOWARDS_LIGHT
+    vec3 goal;           // TOWARDS_TARGET: position of x_k, where it has one,
+    float gap;           // and how far before it the segment ends
+};
+
+SurfacePoint connectedPoint(Shift t) { return SurfacePoint(t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics); }
+
+/// Direction and lobe. False: x_k is of a level that this World doesn't show.
+bool depart(Shift t, World w, Surface s, Bsdf b, vec3 wo, bool target, out Departure d) {
+    uint j = t.vertex, kind = reconnectionKind(t.shape);
+    bool lastBeforeLight = t.shape.nee && j + 1u == t.shape.d;
+    d.towards = j + 1u == t.shape.k && kind != RC_LIGHT ? TOWARDS_TARGET
+                : lastBeforeLight && (!target || t.refresh) ? TOWARDS_LIGHT : target ? TOWARDS_SUFFIX : TOWARDS_SAMPLE;
+    if (d.towards == TOWARDS_SAMPLE) {
+        d.next = pathDirection(b, wo, t.path.seed, j);
+        d.lobe = d.next.lobe;
+        d.way = d.next.wi;
+    } else if (d.towards == TOWARDS_LIGHT) {
+        d.light = lightSampleAt(w, kind == RC_LIGHT ? storedLight(w, t) : pathLight(w, t.path.seed, j, 0u), s.position);
+        d.lobe = LOBE_ALL;
+        d.way = onGrid(d.light.direction);
+    } else if (d.towards == TOWARDS_TARGET) {
+        d.lobe = t.shape.lobeBefore;
+        d.way = unpackDirection(t.path.rcDirection);
+        if (kind != RC_ENVIRONMENT) {
+            if (!isShown(w, connectedPoint(t))) return false;
+            d.goal = segmentEnd(w, connectedPoint(t), s.position, d.gap);
+            d.way = safeNormalize(d.goal - s.position, d.way);
+        }
+    } else {
+        d.lobe = kind == RC_TO_LIGHT ? LOBE_ALL : t.shape.lobeAt;
+        d.way = unpackDirection(t.path.rcDirection);
+    }
+    return true;
+}
+
+/// Keeps what the next vertex has to know of this one.
+void leave(inout Shift t, Surface s, vec3 way, float roughness, float pdf) {
+    t.before = roughness;
+    t.pdf = pdf;
+    t.cosine = abs(dot(s.normal, way));
+    t.from = s.position;
+}
+
+/// Replays a vertex: the path's numbers lead on.
+void replay(inout Shift t, World w, Surface s, Bsdf b, Departure d, BsdfValue value, float roughness) {
+    BsdfSample drawn = d.next.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d.next) : lobeSample(d.next, value);
+    t.throughput *= drawn.lobeWeight;
+    leave(t, s, d.way, roughness, drawn.delta ? 0.0 : drawn.pdf);
+    t.ray = spawnRay(w, s, d.way);
+    if (t.throughput == vec3(0.0)) shiftFail(t);
+}
+
+/// Sets out from y_{k-1} to x_k, which `hit` and `direction` become. False: the shift has failed.
+bool connect(inout Shift t, World w, Surface s, Departure d, BsdfValue value, float roughness, inout Hit hit, inout vec3 direction) {
+    bool sky = reconnectionKind(t.shape) == RC_ENVIRONMENT;
+    SurfacePoint goal = connectedPoint(t);
+    t.throughput *= value.one;
+    leave(t, s, d.way, roughness, value.pdf);
+    t.vertex = t.shape.k;
+    t.state = SHIFT_CONNECT;
+    t.ray = sky ? spawnRay(w, s, d.way) : rayBetween(s, d.goal, d.gap);
+    hit = Hit(0.0, goal.barycentrics, sky ? NONE : goal.primitive, goal.instance);
+    direction = d.way;
+    if (t.throughput == vec3(0.0)) shiftFail(t);
+    return t.state != SHIFT_DONE;
+}
+
+/// The last vertex of a replayed path, of a suffix, or y_{k-1} before a light that is x_k: asks how much it sees of the light.
+void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, BsdfValue value, float roughness, float share) {
+    bool stored = reconnectionKind(t.shape) == RC_LIGHT;
+    if (t.shape.k == 0u || stored) {
+        if (lightConnectable(rules, t.vertex, s, roughness, value.pdf, d.light) != stored) shiftFail(t);
+    }
+    reachLight(t, value.all * d.light.radianceOverPdf * (stored ? vertexDensity(w, d.light) : 1.0), share, 0.0);
+    if (stored) {
+        float G = connectionTerm(w, d.light);
+        t.jacobian *= reconnectionJacobian(G, t.path.G);
+        t.path.G = G;
+    }
+    t.ray = shadowRay(w, s, d.light);
+    if (t.state != SHIFT_DONE) t.state = stored ? SHIFT_CONNECT : SHIFT_LIGHT;
+}
+
+/// x_k between y_{k-1} and what follows it, which is kept or, `refresh`, walked again. `sampled`: light sampling at x_k found the light.
+void passConnection(inout Shift t, World w, Surface s, Departure d, BsdfValue value, bool sampled, float pdfLight, float share) {
+    float G = connectionTerm(t.from, s);
+    t.jacobian *= reconnectionJacobian(G, t.path.G);
+    t.path.G = G;
+    if (d.towards == TOWARDS_LIGHT) {
+        // The light sample's numbers stay, its direction doesn't: d omega_y / d omega_x is the quotient of the densities.
+        float density = pdfLight > 0.0 ? pdfLight : 1.0;
+        t.jacobian *= jacobianRatio(t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);
+        t.path.lightPdf = pdfLight;
+        t.path.radiance = d.light.radianceOverPdf * density;
+        t.path.rcDirection = packDirection(d.way);
+    }
+    t.prefix = t.throughput * (sampled ? value.all : value.one);
+    t.path.F = t.prefix * t.path.radiance * share;
+    if (t.prefix == vec3(0.0)) shiftFail(t);
+    if (!t.refresh) return;
+    t.resumes = true;
+    t.onward = sampled ? shadowRay(w, s, d.light) : spawnRay(w, s, d.way);
+    t.throughput = vec3(1.0);
+    leave(t, s, d.way, t.before, value.pdf);
+}
+
 /// Looks at vertex `hit`, which `direction` leads to: y_j, or x_k (`target`) before it is known whether y_{k-1} sees it. True: hit and direction
 /// have become x_k, which wants to be looked at before any ray is traced.
 bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout vec3 direction, inout bool target) {
@@ -190,115 +303,31 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         return false;
     }
     Bsdf b = bsdfAt(w, s);
-    vec3 wo = -direction, way;
-    bool lastBeforeLight = t.shape.nee && j + 1u == t.shape.d;
-    uint towards = j + 1u == t.shape.k && kind != RC_LIGHT ? TOWARDS_TARGET
-                   : lastBeforeLight && (!target || t.refresh) ? TOWARDS_LIGHT : target ? TOWARDS_SUFFIX : TOWARDS_SAMPLE;
-
-    // Direction and lobe.
-    uint lobe;
-    BsdfDirection next;
-    LightSample light;
-    vec3 goal;  // x_k
-    float gap;  // before it
-    SurfacePoint connected = SurfacePoint(t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics);
-    if (towards == TOWARDS_SAMPLE) {
-        next = pathDirection(b, wo, t.path.seed, j);
-        lobe = next.lobe;
-        way = next.wi;
-    } else if (towards == TOWARDS_LIGHT) {
-        light = lightSampleAt(w, kind == RC_LIGHT ? storedLight(w, t) : pathLight(w, t.path.seed, j, 0u), s.position);
-        lobe = LOBE_ALL;
-        way = onGrid(light.direction);
-    } else if (towards == TOWARDS_TARGET) {
-        lobe = t.shape.lobeBefore;
-        way = unpackDirection(t.path.rcDirection);
-        if (kind != RC_ENVIRONMENT) {
-            if (!isShown(w, connected)) {  // of a level that this World doesn't show
-                shiftFail(t);
-                return false;
-            }
-            goal = segmentEnd(w, connected, s.position, gap);
-            way = safeNormalize(goal - s.position, way);
-        }
-    } else {
-        lobe = kind == RC_TO_LIGHT ? LOBE_ALL : t.shape.lobeAt;
-        way = unpackDirection(t.path.rcDirection);
+    vec3 wo = -direction;
+    Departure d;
+    if (!depart(t, w, s, b, wo, target, d)) {
+        shiftFail(t);
+        return false;
     }
-    float roughness = lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, lobe);
-    BsdfValue value = bsdfValue(b, lobe, wo, way);
+    float roughness = d.lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, d.lobe);
+    BsdfValue value = bsdfValue(b, d.lobe, wo, d.way);
     if (!agreesOnConnection(t, rules, target, PAIR_SURFACE, roughness, value.pdf, s, distance)) {
         shiftFail(t);
         return false;
     }
-
-    if (towards == TOWARDS_SAMPLE) {
-        BsdfSample drawn = next.delta || lobe == LOBE_COUNT ? deltaSample(b, next) : lobeSample(next, value);
-        t.throughput *= drawn.lobeWeight;
-        t.before = roughness;
-        t.pdf = drawn.delta ? 0.0 : drawn.pdf;
-        t.cosine = abs(dot(s.normal, way));
-        t.from = s.position;
-        t.ray = spawnRay(w, s, way);
-        if (t.throughput == vec3(0.0)) shiftFail(t);
+    if (d.towards == TOWARDS_SAMPLE) {
+        replay(t, w, s, b, d, value, roughness);
         return false;
     }
-    if (towards == TOWARDS_TARGET) {
-        t.throughput *= value.one;
-        t.before = roughness;
-        t.pdf = value.pdf;
-        t.cosine = abs(dot(s.normal, way));
-        t.from = s.position;
-        t.vertex = t.shape.k;
-        t.state = SHIFT_CONNECT;
-        t.ray = kind == RC_ENVIRONMENT ? spawnRay(w, s, way) : rayBetween(s, goal, gap);
-        hit = Hit(0.0, connected.barycentrics, kind == RC_ENVIRONMENT ? NONE : connected.primitive, connected.instance);
-        direction = way;
+    if (d.towards == TOWARDS_TARGET) {
         target = true;
-        if (t.throughput == vec3(0.0)) shiftFail(t);
-        return t.state != SHIFT_DONE;
+        return connect(t, w, s, d, value, roughness, hit, direction);
     }
-    float pdfLight = towards == TOWARDS_LIGHT ? light.pdf : t.path.lightPdf;  // 0: a light without extent
-    float density = pdfLight > 0.0 ? pdfLight : 1.0;
-    bool sampled = kind == RC_TO_LIGHT || towards == TOWARDS_LIGHT;  // the light, by light sampling at this vertex
+    float pdfLight = d.towards == TOWARDS_LIGHT ? d.light.pdf : t.path.lightPdf;  // 0: a light without extent
+    bool sampled = kind == RC_TO_LIGHT || d.towards == TOWARDS_LIGHT;             // the light, by light sampling at this vertex
     float share = sampled ? lightShare(rules, j, pdfLight, value.pdf) : j + 1u == t.shape.d ? emissionShare(rules, j, value.pdf, pdfLight) : 1.0;
-    if (!target) {
-        // The last vertex of a replayed path, of a suffix, or y_{k-1} before a light that is x_k.
-        bool stored = kind == RC_LIGHT;
-        if (t.shape.k == 0u || stored) {
-            if (lightConnectable(rules, j, s, roughness, value.pdf, light) != stored) shiftFail(t);
-        }
-        reachLight(t, value.all * light.radianceOverPdf * (stored ? vertexDensity(w, light) : 1.0), share, 0.0);
-        if (stored) {
-            float G = connectionTerm(w, light);
-            t.jacobian *= reconnectionJacobian(G, t.path.G);
-            t.path.G = G;
-        }
-        t.ray = shadowRay(w, s, light);
-        if (t.state != SHIFT_DONE) t.state = stored ? SHIFT_CONNECT : SHIFT_LIGHT;
-        return false;
-    }
-    // x_k between y_{k-1} and what follows.
-    float G = connectionTerm(t.from, s);
-    t.jacobian *= reconnectionJacobian(G, t.path.G);
-    t.path.G = G;
-    if (towards == TOWARDS_LIGHT) {
-        // The light sample's numbers stay, its direction doesn't: d omega_y / d omega_x is the quotient of the densities.
-        t.jacobian *= jacobianRatio(t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);
-        t.path.lightPdf = pdfLight;
-        t.path.radiance = light.radianceOverPdf * density;
-        t.path.rcDirection = packDirection(way);
-    }
-    t.prefix = t.throughput * (sampled ? value.all : value.one);
-    t.path.F = t.prefix * t.path.radiance * share;
-    if (t.prefix == vec3(0.0)) shiftFail(t);
-    if (!t.refresh) return false;
-    t.resumes = true;
-    t.onward = sampled ? shadowRay(w, s, light) : spawnRay(w, s, way);
-    t.throughput = vec3(1.0);
-    t.pdf = value.pdf;
-    t.cosine = abs(dot(s.normal, way));
-    t.from = s.position;
+    if (target) passConnection(t, w, s, d, value, sampled, pdfLight, share);
+    else askLight(t, w, rules, s, d, value, roughness, share);
     return false;
 }
 

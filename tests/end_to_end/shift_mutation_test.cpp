@@ -42,11 +42,10 @@ TEST_F(Mutations, BetweenPixels) {
           "float reconnectionJacobian(float Gy, float Gx) { return jacobianRatio(Gy, Gx); }",
           "float reconnectionJacobian(float Gy, float Gx) { return Gy > 0.0 ? 1.0 : 0.0; }"},
          {"without_light_g", "shift_check", "restir/shift.glsl",
-          "float G = connectionTerm(w, light);\n            t.jacobian *= reconnectionJacobian(G, t.path.G);",
-          "float G = connectionTerm(w, light);"},
+          "float G = connectionTerm(w, d.light);\n        t.jacobian *= reconnectionJacobian(G, t.path.G);",
+          "float G = connectionTerm(w, d.light);"},
          {"unchecked", "spatial_reuse", "restir/shift.glsl", "if (t.vertex < 2u || suffix) return true;", "return true;"},
-         {"lobe_pdf", "shift_check", "restir/shift.glsl", "t.pdf = value.pdf;\n        t.cosine = abs(dot(s.normal, way));\n        t.from = s.position;",
-          "t.pdf = value.onePdf;\n        t.cosine = abs(dot(s.normal, way));\n        t.from = s.position;"},
+         {"lobe_pdf", "shift_check", "restir/shift.glsl", "leave(t, s, d.way, roughness, value.pdf);", "leave(t, s, d.way, roughness, value.onePdf);"},
          {"share_lost", "shift_check", "restir/mis.glsl", "(theirs > 0.0 ? balanceMis(p.canonical * pHat, theirs) : 1.0)",
           "balanceMis(p.canonical * pHat, theirs) * float(theirs > 0.0)"}});
     ASSERT_FALSE(HasFailure());
