@@ -24,6 +24,7 @@ install(CODE [[
 
 install(DIRECTORY framework/shaders DESTINATION ${share} PATTERN *.test.comp EXCLUDE)
 install(DIRECTORY graphs studies docs DESTINATION ${share})
+install(FILES ${PROJECT_BINARY_DIR}/docs/passes.md DESTINATION ${share}/docs)
 install(DIRECTORY scenes/ DESTINATION ${share}/scenes FILES_MATCHING PATTERN *.json PATTERN generate EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/scenes/ DESTINATION ${share}/scenes FILES_MATCHING PATTERN *.glb)
 install(PROGRAMS scripts/new_pass DESTINATION ${share}/scripts)
