@@ -20,7 +20,8 @@ protected:
     std::pair<bool, std::string> compile(const std::string& includes, const std::string& flags) {
         const std::string api = LODESTIR_BUILD_DIR "/api", file = (folder_ / "source.cpp").string();
         writeFile(file, includes);
-        const std::string command = "g++ -std=c++20 " + flags + " -I" + api + " -I" + api + "/framework/shaders -I" + api + "/passes -include lodestir/abi.h " + file + " 2>&1";
+        const std::string command =
+            "g++ -std=c++20 " + flags + " -I" + api + " -I" + api + "/framework/shaders -I" + api + "/passes -include lodestir/abi.h " + file + " 2>&1";
         std::FILE* pipe = ::popen(command.c_str(), "r");
         std::string output;
         std::array<char, 4096> part;
@@ -35,7 +36,8 @@ TEST_F(Api, HasAllOfFrameworkPassAndNoVulkan) {
     std::string includes;
     for (const auto& entry : std::filesystem::directory_iterator(LODESTIR_SOURCE_DIR "/framework/pass"))
         if (entry.path().extension() == ".h") includes += "#include <framework/pass/" + entry.path().filename().string() + ">\n";
-    const auto [good, said] = compile(includes + "lodestir::Memory made(lodestir::Frame& f) { return f.upload(std::vector<float>{1}, \"one\"); }\n", "-Wall -Werror -fsyntax-only");
+    const auto [good, said] =
+        compile(includes + "lodestir::Memory made(lodestir::Frame& f) { return f.upload(std::vector<float>{1}, \"one\"); }\n", "-Wall -Werror -fsyntax-only");
     EXPECT_TRUE(good) << said;
     const auto [listed, files] = compile(includes, "-M");
     EXPECT_TRUE(listed) << files;

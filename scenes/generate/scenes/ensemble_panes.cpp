@@ -43,7 +43,8 @@ Glb makeEnsemblePanes() {
     c.glb.addNode(LightSource{.name = "candle", .kind = Kind::point, .color = {1, 0.62f, 0.25f}, .intensity = 1.2f}, {.translation = {-0.3f, 1.1f, 0.9f}});
     c.glb.addNode(LightSource{.name = "spot", .kind = Kind::spot, .color = {0.75f, 0.9f, 1}, .intensity = 9.0f, .innerDegrees = 14, .outerDegrees = 24},
                   {.translation = {1.1f, 2.6f, 1.2f}, .rotation = turnTo({-0.5f, -2.4f, -1.5f})});
-    c.glb.addNode(LightSource{.name = "moon", .kind = Kind::directional, .color = {0.45f, 0.6f, 1}, .intensity = 0.9f}, {.rotation = turnTo({-0.35f, -1, -0.45f})});
+    c.glb.addNode(LightSource{.name = "moon", .kind = Kind::directional, .color = {0.45f, 0.6f, 1}, .intensity = 0.9f},
+                  {.rotation = turnTo({-0.35f, -1, -0.45f})});
     return std::move(c.glb);
 }
 

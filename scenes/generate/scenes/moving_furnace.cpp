@@ -66,7 +66,8 @@ void addBooth(Composition& c, int lining, int shell) {
 void addGuests(Composition& c, int third, int half) {
     constexpr float turn = 2 * std::numbers::pi_v<float>;
     const int crate = c.put("crate", half, plainBox({0.5f, 0.4f, 0.6f}), {.translation = {-2.3f, 0.5f, 0}});
-    animate(c.glb, crate, Motion::translation, second, [](float t) { return glm::vec4(-2.3f + 0.5f * t, 0.5f + 0.4f * std::sin(turn * t), 0.7f * std::sin(turn * t), 0); });
+    animate(c.glb, crate, Motion::translation, second,
+            [](float t) { return glm::vec4(-2.3f + 0.5f * t, 0.5f + 0.4f * std::sin(turn * t), 0.7f * std::sin(turn * t), 0); });
     animate(c.glb, crate, Motion::rotation, second, [](float t) { return asVector(glm::angleAxis(2 * t, glm::normalize(glm::vec3(0.3f, 1, 0.2f)))); });
     const int slab = c.put("slab", third, plainBox({0.5f, 0.5f, 0.5f}), {.translation = {-1.1f, 1.2f, -0.5f}});
     animate(c.glb, slab, Motion::scale, second, [](float t) { return glm::vec4(1 - 0.7f * t, 0.4f + 1.2f * t, 1 + 0.8f * std::sin(turn * t), 0); });

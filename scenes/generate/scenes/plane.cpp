@@ -222,7 +222,8 @@ Glb makePlane() {
     propeller.add(blades, placed(blade, glm::rotate(glm::mat4(1), 0.5f, {0, 0, 1})));
     glb.addNode(propeller, parked);
 
-    addTable(glb, {.size = {6.4f, 0.1f, 4.6f}, .edge = 0.02f, .centre = {0, -0.05f, -0.2f}, .grain = 0.45f, .material = "walnut", .wood = walnut(), .seed = 21});
+    addTable(glb,
+             {.size = {6.4f, 0.1f, 4.6f}, .edge = 0.02f, .centre = {0, -0.05f, -0.2f}, .grain = 0.45f, .material = "walnut", .wood = walnut(), .seed = 21});
     addWall(glb, {.name = "plaster", .color = {0.42f, 0.46f, 0.50f}, .roughness = 0.95f}, {-9, 6, -3.2f}, {18, 0, 0}, {0, -9, 0});
     return glb;
 }
