@@ -8,7 +8,8 @@
 //     };
 //     LODESTIR_PASS(Bloom, "bloom.comp", "Gaussian of the highlights, at half resolution.")
 //
-// The shader starts with #include "pass.glsl", which is made from this declaration.
+// The shader starts with #include "pass.glsl", which is made from this declaration. A pass sees this header, framework/pass/scene.h and image.h beside it,
+// what is shared with shaders, and the families of passes; nothing else of the framework is on its include path.
 #pragma once
 #include <framework/core/error.h>  // what execute() throws
 #include <framework/pass/parameter.h>
