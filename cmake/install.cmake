@@ -24,16 +24,21 @@ install(CODE [[
 
 install(DIRECTORY framework/shaders DESTINATION ${share} PATTERN *.test.comp EXCLUDE)
 install(DIRECTORY graphs studies docs DESTINATION ${share})
+install(FILES ${PROJECT_BINARY_DIR}/docs/passes.md DESTINATION ${share}/docs)
 install(DIRECTORY scenes/ DESTINATION ${share}/scenes FILES_MATCHING PATTERN *.json PATTERN generate EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/scenes/ DESTINATION ${share}/scenes FILES_MATCHING PATTERN *.glb)
 install(PROGRAMS scripts/new_pass DESTINATION ${share}/scripts)
 
-# Exactly the headers that LODESTIR_ABI is a hash of: what a pass can include it is refused for when it changes.
-foreach(header ${LODESTIR_ABI_HEADERS})
-    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${header})
+# The same tree as build/api: exactly the headers that LODESTIR_ABI is a hash of (what a pass can include it is refused for when it changes), and
+# the families of passes.
+foreach(name ${LODESTIR_API_HEADERS})
     get_filename_component(folder ${name} DIRECTORY)
-    install(FILES ${header} DESTINATION include/lodestir/${folder})
+    install(FILES ${name} DESTINATION include/lodestir/${folder})
 endforeach()
+install(FILES ${LODESTIR_API_DIR}/lodestir/abi.h DESTINATION include/lodestir/lodestir)
+install(CODE [[
+    file(REMOVE "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/include/lodestir/passes")
+    file(CREATE_LINK ../../lib/lodestir/passes "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/include/lodestir/passes" SYMBOLIC)]])
 
 # The package, once for the prefix and once for the build folder itself: passes can be built against either.
 set(package_library [[${CMAKE_CURRENT_LIST_DIR}/../../liblodestir.so]])
@@ -42,5 +47,5 @@ configure_file(cmake/lodestirConfig.cmake.in package/lodestirConfig.cmake @ONLY)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/lodestirConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/lodestirConfig.cmake ${PROJECT_BINARY_DIR}/lodestirConfigVersion.cmake DESTINATION lib/cmake/lodestir)
 set(package_library ${PROJECT_BINARY_DIR}/liblodestir.so)
-set(package_include ${PROJECT_SOURCE_DIR})
+set(package_include ${LODESTIR_API_DIR})
 configure_file(cmake/lodestirConfig.cmake.in lodestirConfig.cmake @ONLY)

@@ -26,12 +26,16 @@ OrderedJson traceJson(std::span<const FrameReport> frames, const std::string& de
     OrderedJson events = OrderedJson::array();
     double begin = 0;  // milliseconds
     const auto add = [&](const std::string& name, double start, double length, int row, OrderedJson facts) {
-        events.push_back({{"name", name}, {"ph", "X"}, {"ts", 1000 * (begin + start)}, {"dur", 1000 * length}, {"pid", 0}, {"tid", row}, {"args", std::move(facts)}});
+        events.push_back({{"name", name}, {"ph", "X"}, {"ts", 1000 * (begin + start)}, {"dur", 1000 * length}, {"pid", 0}, {"tid", row},
+                          {"args", std::move(facts)}});
     };
     for (const FrameReport& frame : frames) {
         add("frame " + std::to_string(frame.frame), 0, frame.wholeMilliseconds, 0, OrderedJson::object());
-        for (const PassReport& pass : frame.passes)
-            if (pass.ran) add(pass.name, pass.start, pass.milliseconds, 1, {{"rays", std::accumulate(pass.rays.begin(), pass.rays.begin() + RAYS_STEPS, std::uint64_t(0))}});
+        for (const PassReport& pass : frame.passes) {
+            if (!pass.ran) continue;
+            const auto rays = std::accumulate(pass.rays.begin(), pass.rays.begin() + RAYS_STEPS, std::uint64_t(0));
+            add(pass.name, pass.start, pass.milliseconds, 1, {{"rays", rays}});
+        }
         begin += frame.wholeMilliseconds;
     }
     return {{"traceEvents", events}, {"displayTimeUnit", "ms"}, {"otherData", {{"device", device}}}};
@@ -41,12 +45,14 @@ OrderedJson runJson(Session& session, double totalMilliseconds) {
     const gpu::DeviceFacts& device = session.device().facts();
     OrderedJson shaders = OrderedJson::array();
     for (const ShaderReport& s : session.runner().shaders())
-        shaders.push_back({{"pass", s.pass}, {"shader", s.shader}, {"cached", s.cached}, {"compileMs", s.compileMilliseconds}, {"driverMs", s.driverMilliseconds}});
+        shaders.push_back({{"pass", s.pass}, {"shader", s.shader}, {"cached", s.cached}, {"compileMs", s.compileMilliseconds},
+                           {"driverMs", s.driverMilliseconds}});
     const glm::uvec2 size = session.runner().size();
     return {{"lodestir", std::string(LODESTIR_VERSION)},
             {"revision", LODESTIR_REVISION},
             {"graph", session.graph().resolved().plain()},
-            {"device", {{"name", device.name}, {"driver", device.driver}, {"driverVersion", device.driverVersion}, {"type", device.type}, {"rays", nameOf(session.rays())}}},
+            {"device", {{"name", device.name}, {"driver", device.driver}, {"driverVersion", device.driverVersion}, {"type", device.type},
+                        {"rays", nameOf(session.rays())}}},
             {"size", {size.x, size.y}},
             {"seed", session.graph().description.seed},
             {"frames", OrderedJson::array()},

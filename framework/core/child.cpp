@@ -65,7 +65,8 @@ ChildEnd runInChild(const std::function<std::string()>& work, std::chrono::durat
     int pipe[2];
     if (::pipe2(pipe, O_CLOEXEC) != 0) throw Error("no pipe to a child process: " + std::generic_category().message(errno));
     const auto most = std::chrono::hours(24 * 365);  // a clock cannot count to any double
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::min<std::chrono::duration<double>>(limit, most));
+    const auto end = std::chrono::steady_clock::now() +
+                     std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::min<std::chrono::duration<double>>(limit, most));
     const pid_t child = ::fork();
     if (child == 0) {
         ::close(pipe[0]);

@@ -292,7 +292,8 @@ Words Rewriter::run() {
     bool inTypes = false, inFunctions = false;
     for (const Instruction& i : m_.instructions) {
         inFunctions = inFunctions || i.op() == spv::OpFunction;
-        inTypes = inTypes || (i.op() >= spv::OpTypeVoid && i.op() <= spv::OpTypeForwardPointer) || (i.op() >= spv::OpConstantTrue && i.op() <= spv::OpSpecConstantOp);
+        inTypes =
+            inTypes || (i.op() >= spv::OpTypeVoid && i.op() <= spv::OpTypeForwardPointer) || (i.op() >= spv::OpConstantTrue && i.op() <= spv::OpSpecConstantOp);
         Words& to = inFunctions ? body_ : inTypes ? types : head;
         if (const std::optional<Place> place = inFunctions ? placeOf(i) : std::nullopt) {
             rewrite(i, *place);

@@ -4,7 +4,7 @@
 #include <framework/core/tasks.h>
 #include <framework/graph/runner_state.h>
 #include <framework/graph/texels.h>
-#include <framework/scene/scene.h>
+#include <framework/pass/scene.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,9 +25,8 @@ public:
     bool isBound(const Port& port) const override {
         return !port.isInput() || s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))].has_value();
     }
-    const gpu::Device& device() const override { return s_.device_; }
     const Scene& scene() const override { return s_.scene_; }
-    bool usesRayQuery() const override { return s_.topLevels_.has_value(); }
+    SceneRecords sceneRecords() const override { return s_.world().records(); }
 
     void dispatch(std::string_view shader, glm::uvec2 extent, std::initializer_list<std::uint32_t> arguments) override {
         if (extent.x == 0 || extent.y == 0) return;
@@ -57,6 +56,11 @@ public:
         std::memcpy(work_.staging.back().mapped(), bytes.data(), bytes.size());
         s_.commands_.copy(work_.staging.back(), 0, memory.now(), 0, bytes.size());
     }
+    using Frame::upload;
+    Memory upload(std::span<const std::byte> bytes, const std::string& name) override {
+        const auto buffer = std::make_shared<const gpu::Buffer>(gpu::makeBuffer(s_.device_, bytes, name));
+        return {buffer->address(), buffer};
+    }
     std::span<const std::byte> valueOf(const Port& port) const override {
         const auto& source = s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))];
         const int resource = source ? s_.plan_.resourceOf(source->node, source->port) : -1;
@@ -77,6 +81,10 @@ public:
         std::memcpy(memory.now().mapped(), bytes.data(), bytes.size());
         memory.keep[std::size_t(memory.current)] = std::move(keep);
         if (!same) ++memory.version;
+    }
+    void provideScene(const Port& world, float at) override {
+        const FrameWorld made = s_.world().at(at, s_.size_);
+        provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep);
     }
 
 private:

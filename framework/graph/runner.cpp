@@ -26,6 +26,11 @@ void Runner::State::allocate() {
     fresh_ = true;
 }
 
+WorldBuilder& Runner::State::world() {
+    if (!world_) world_.emplace(device_, scene_, topLevels_.has_value());
+    return *world_;
+}
+
 /// Takes over a node's parameters; true when one differs from last frame.
 bool Runner::State::takeParameters(std::size_t node) {
     NodeState& state = nodes_[node];

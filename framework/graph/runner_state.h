@@ -7,6 +7,7 @@
 #include <framework/graph/runner.h>
 #include <framework/graph/slices.h>
 #include <framework/graph/top_levels.h>
+#include <framework/scene/upload/world.h>
 
 #include <memory>
 #include <optional>
@@ -36,6 +37,7 @@ public:
 
     FrameReport run();
     void allocate();
+    WorldBuilder& world();  ///< the scene on the device, laid out when first asked for
 
     const gpu::Device& device_;
     Graph& graph_;
@@ -49,6 +51,7 @@ public:
     std::uint32_t frame_ = 0;
     bool historyValid_ = false, fresh_ = true;  ///< fresh: memory never cleared
     std::unique_ptr<PortMemories> memories_;
+    std::optional<WorldBuilder> world_;
     std::optional<TopLevels> topLevels_;  ///< with ray queries only
     gpu::Buffer counters_, ledger_, faults_, facts_;  ///< facts: ledger and faults, read back
     struct NodeState {

@@ -2,9 +2,6 @@
 #include <framework/graph/scene_node.h>
 
 #include <framework/graph/plugins.h>
-#include <framework/scene/upload/world.h>
-
-#include <optional>
 
 namespace lodestir {
 namespace {
@@ -13,13 +10,8 @@ struct SceneNode final : Pass {
     Out<World>  world{this, "world", "the scene of this frame: camera, instances, materials, lights"};
     Param<bool> animate{this, "animate", true, "camera keyframes and node animation follow the frames; off: the pose of frame `pose`"};
     Param<int>  pose{this, "pose", 0, {0, 1000000}, "frame whose pose is held while `animate` is off"};
-    std::optional<WorldBuilder> builder;
 
-    void execute(Frame& frame) override {
-        if (!builder) builder.emplace(frame.device(), frame.scene(), frame.usesRayQuery());
-        const FrameWorld made = builder->at(animate ? float(frame.index()) : float(int(pose)), frame.size());
-        frame.provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep);
-    }
+    void execute(Frame& frame) override { frame.provideScene(world, animate ? float(frame.index()) : float(int(pose))); }
 };
 
 }  // namespace

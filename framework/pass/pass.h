@@ -8,7 +8,8 @@
 //     };
 //     LODESTIR_PASS(Bloom, "bloom.comp", "Gaussian of the highlights, at half resolution.")
 //
-// The shader starts with #include "pass.glsl", which is made from this declaration.
+// The shader starts with #include "pass.glsl", which is made from this declaration. A pass sees this header, framework/pass/scene.h and image.h beside it,
+// what is shared with shaders, and the families of passes; nothing else of the framework is on its include path.
 #pragma once
 #include <framework/core/error.h>  // what execute() throws
 #include <framework/pass/parameter.h>
@@ -19,18 +20,23 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace lodestir {
 
-struct Scene;
-namespace gpu {
-class Device;
-}
+struct Scene;         // framework/pass/scene.h
+struct SceneRecords;  // the same
 
 /// When a pass runs: every frame, or only when an input's content or a parameter changed (its time then counts as set-up).
 enum class Cadence : std::uint8_t { everyFrame, onChange };
+
+/// Memory on the device that a pass made: what handle outputs point to. It lives as long as a copy of `keep`.
+struct Memory {
+    std::uint64_t address = 0;  ///< what LODESTIR_ARRAY_OF members of shared structs hold
+    std::shared_ptr<const void> keep;
+};
 
 /// What a pass can do while it executes.
 class LODESTIR_API Frame {
@@ -51,11 +57,15 @@ public:
     virtual void fill(const Port& port, std::uint32_t word) = 0;
     /// Fills a buffer or image this pass makes with `bytes` from the CPU (at most its size).
     virtual void upload(const Port& port, std::span<const std::byte> bytes) = 0;
+    /// New memory that holds `bytes`. `name` shows in debuggers.
+    virtual Memory upload(std::span<const std::byte> bytes, const std::string& name) = 0;
+    template <class T> Memory upload(const std::vector<T>& values, const std::string& name) { return upload(std::as_bytes(std::span(values)), name); }
     /// Gives a handle output its struct; `keep` owns the memory that the struct points to and lives as long as the value is used (also as @prev).
     virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) = 0;
-    virtual const gpu::Device& device() const = 0;
+    /// Gives an output the World of the loaded scene as it stands at a frame (fractions are fine).
+    virtual void provideScene(const Port& world, float at) = 0;
     virtual const Scene& scene() const = 0;
-    virtual bool usesRayQuery() const = 0;  ///< rays are traced by the driver; every World that is provided gets its top level after the pass
+    virtual SceneRecords sceneRecords() const = 0;  ///< lives as long as the scene
 };
 
 class LODESTIR_API Pass {

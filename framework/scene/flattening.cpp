@@ -112,7 +112,8 @@ void shapeFlatInstances(Scene& scene) {
             scene.meshes[instance.mesh] = std::move(mesh);
         }
     }
-    if (tooMany) scene.notes.push_back(fmt::format("with objects that their nodes make flat more than {} vertices deform: some of those are not seen", maxDeforming));
+    if (tooMany)
+        scene.notes.push_back(fmt::format("with objects that their nodes make flat more than {} vertices deform: some of those are not seen", maxDeforming));
 }
 
 }  // namespace lodestir

@@ -147,7 +147,8 @@ private:
             deforming_ += model.deforming;
             isFull_ = scene_.nodes.size() + more > maxNodes || deforming_ > maxDeforming;
             if (!isFull_) return repeatModel(scene_, model.begin, model.end, parent);
-            problems_.add(model.where, fmt::format("with all its instances the scene has more than {} nodes or {} vertices that deform", maxNodes, maxDeforming));
+            problems_.add(model.where,
+                          fmt::format("with all its instances the scene has more than {} nodes or {} vertices that deform", maxNodes, maxDeforming));
             return;
         }
         model.loaded = true;

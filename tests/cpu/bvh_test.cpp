@@ -39,8 +39,8 @@ Leaf leafOf(std::uint32_t reference) {
 /// Of the boxes, in the steps from the origin that triangles are in.
 glm::vec3 boxesOf(const Bvh& bvh) { return BvhGrid{bvh.gridBase, bvh.gridScale}.boxes(); }
 
-/// Where a ray in grid space, measured like triangles, meets the nearest triangle: visits every child whose box the ray passes before the nearest hit so far, in float
-/// arithmetic like the shaders'.
+/// Where a ray in grid space, measured like triangles, meets the nearest triangle: visits every child whose box the ray passes before the nearest hit
+/// so far, in float arithmetic like the shaders'.
 TestHit walk(const Bvh& bvh, TestRay ray) {
     TestHit best;
     const auto slope = 1.0f / glm::mix(ray.direction, glm::vec3(1e-18f), glm::lessThan(glm::abs(ray.direction), glm::vec3(1e-18f)));

@@ -54,7 +54,8 @@ TEST(DefaultLight, WhatLightsItselfGetsNone) {
     const Scene unlit = cube(true, true, R"({"extensions": {"KHR_materials_unlit": {}}})");
     EXPECT_TRUE(unlit.lights.empty());
     EXPECT_NE(unlit.environment.type, EnvironmentType::sky);
-    EXPECT_EQ(cube(false, true, R"({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}})").environment.type, EnvironmentType::sky);
+    EXPECT_EQ(cube(false, true, R"({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}})").environment.type,
+              EnvironmentType::sky);
 }
 
 // If this fails, an unlit floor counts as the light of what stands on it.

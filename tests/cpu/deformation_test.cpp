@@ -88,7 +88,8 @@ GltfModel bending(float sum) {
     const int indices = model.indices({0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5});
     const int node = model.addMesh({{"attributes", {{"POSITION", positions}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}}, {"indices", indices}});
     // The second joint stands at (0,1,0); its inverse bind matrix takes that to the origin.
-    const int inverse = model.accessor(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}, 5126, "MAT4", 16);
+    const int inverse =
+        model.accessor(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1}, 5126, "MAT4", 16);
     const float half = std::sqrt(0.5f);
     model.json["nodes"].push_back({{"name", "lower"}, {"translation", {0, 0, 5}}, {"children", {2}}});
     model.json["nodes"].push_back({{"name", "upper"}, {"translation", {0, 1, 0}}, {"rotation", {0, 0, half, half}}});

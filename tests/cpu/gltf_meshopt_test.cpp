@@ -35,19 +35,25 @@ protected:
         while (model.bytes().size() % 4) model.bytes().push_back(0);
         const std::size_t offset = model.bytes().size();
         model.bytes().insert(model.bytes().end(), packed.begin(), packed.end());
-        model.json["bufferViews"].push_back(
-            {{"buffer", 1},
-             {"byteOffset", fallbackBytes},
-             {"byteLength", count * stride},
-             {"extensions",
-              {{extension,
-                {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", packed.size()}, {"count", count}, {"byteStride", stride}, {"mode", mode}, {"filter", filter}}}}}});
+        model.json["bufferViews"].push_back({{"buffer", 1},
+                                             {"byteOffset", fallbackBytes},
+                                             {"byteLength", count * stride},
+                                             {"extensions",
+                                              {{extension,
+                                                {{"buffer", 0},
+                                                 {"byteOffset", offset},
+                                                 {"byteLength", packed.size()},
+                                                 {"count", count},
+                                                 {"byteStride", stride},
+                                                 {"mode", mode},
+                                                 {"filter", filter}}}}}});
         if (std::string(mode) == "ATTRIBUTES") model.json["bufferViews"].back()["byteStride"] = stride;
         fallbackBytes += count * stride;
         return static_cast<int>(model.json["bufferViews"].size()) - 1;
     }
     static int accessor(GltfModel& model, int bufferView, int componentType, const char* type, std::size_t count, bool normalized = false) {
-        model.json["accessors"].push_back({{"bufferView", bufferView}, {"componentType", componentType}, {"count", count}, {"type", type}, {"normalized", normalized}});
+        model.json["accessors"].push_back(
+            {{"bufferView", bufferView}, {"componentType", componentType}, {"count", count}, {"type", type}, {"normalized", normalized}});
         return static_cast<int>(model.json["accessors"].size()) - 1;
     }
     template <class T> static std::vector<unsigned char> packVertices(const std::vector<T>& values, std::size_t stride) {

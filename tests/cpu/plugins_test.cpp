@@ -52,8 +52,8 @@ protected:
     static void compile(const std::string& name, const char* source, const std::string& abi) {
         const Path folder = root() / name;
         writeFile(folder / (name + ".cpp"), source);
-        const std::string tree = LODESTIR_SOURCE_DIR;
-        const std::string command = "g++ -std=c++20 -fPIC -shared -fvisibility=hidden -I" + tree + " -I" + tree +
+        const std::string api = LODESTIR_BUILD_DIR "/api";
+        const std::string command = "g++ -std=c++20 -fPIC -shared -fvisibility=hidden -I" + api + " -I" + api +
                                     "/framework/shaders '-DLODESTIR_ABI=\"" + abi + "\"' " + (folder / (name + ".cpp")).string() + " -o " +
                                     (folder / ("lib" + name + ".so")).string();
         ASSERT_EQ(std::system(command.c_str()), 0) << command;

@@ -173,7 +173,8 @@ TEST(SceneFile, OrthographicCamerasAndInheritedLenses) {
 TEST(SceneFile, FindsInstancesOfTheSchedule) {
     const Scene scene = load(R"({"format": 1, "models": {"m": {"file": "triangle.gltf"}},
         "instances": [{"model": "m", "name": "left"}, {"model": "m", "name": "right"}],
-        "lod": {"mode": "schedule", "pixelError": 0.5, "schedule": [{"frame": 40, "instance": "right", "level": 1}, {"frame": 50, "instance": "leaf", "level": 2}, {"frame": 60, "level": 0}]}})");
+        "lod": {"mode": "schedule", "pixelError": 0.5,
+                "schedule": [{"frame": 40, "instance": "right", "level": 1}, {"frame": 50, "instance": "leaf", "level": 2}, {"frame": 60, "level": 0}]}})");
     EXPECT_EQ(scene.lod.mode, LodMode::schedule);
     EXPECT_FLOAT_EQ(scene.lod.pixelError, 0.5f);
     ASSERT_EQ(scene.lod.schedule.size(), 4u);

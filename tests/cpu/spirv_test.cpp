@@ -45,7 +45,8 @@ void expectValid(const std::vector<std::uint32_t>& words) {
 }
 
 TEST(TexelReads, FetchArraysThatAreOnlyRead) {
-    const auto words = compile("void main() { Record r = push.block.records.at[gl_GlobalInvocationID.x]; push.block.numbers.at[r.c] = uint(r.b) + floatBitsToUint(r.a.y); }");
+    const auto words =
+        compile("void main() { Record r = push.block.records.at[gl_GlobalInvocationID.x]; push.block.numbers.at[r.c] = uint(r.b) + floatBitsToUint(r.a.y); }");
     const auto texels = readByTexels(words);
     expectValid(texels);
     EXPECT_EQ(count(words, spv::OpImageRead), 0u);
@@ -80,18 +81,22 @@ TEST(TexelReads, RefuseWhatIsNoSpirv) {
     EXPECT_THROW(readByTexels(words), Error);
 }
 
-// A dispatch that only makes the driver compile has a block and handles, but no arrays: what a global's initialiser may read.
+// A dispatch that only makes the driver compile has no memory.
 TEST(EarlyReads, ComeAfterTheGuard) {
-    EXPECT_FALSE(touchesMemoryEarly(compile("void main() { if (push.warm != 0u) return; push.block.numbers.at[0] = uint(push.block.factor); }")));
+    EXPECT_FALSE(
+        touchesMemoryEarly(compile("void main() { if (push.warm != 0u) return; push.block.numbers.at[0] = uint(push.block.factor); }")));
 }
 TEST(EarlyReads, AreSeenInGlobals) {
-    EXPECT_TRUE(touchesMemoryEarly(compile("float factor = push.block.factor;\nvoid main() { if (push.warm != 0u) return; push.block.numbers.at[0] = uint(factor); }")));
-    EXPECT_TRUE(touchesMemoryEarly(compile("uint first = push.block.records.at[3].c;\nvoid main() { if (push.warm != 0u) return; push.block.numbers.at[0] = first; }")));
+    EXPECT_TRUE(touchesMemoryEarly(
+        compile("float factor = push.block.factor;\nvoid main() { if (push.warm != 0u) return; push.block.numbers.at[0] = uint(factor); }")));
+    EXPECT_TRUE(touchesMemoryEarly(
+        compile("uint first = push.block.records.at[3].c;\nvoid main() { if (push.warm != 0u) return; push.block.numbers.at[0] = first; }")));
     EXPECT_TRUE(touchesMemoryEarly(compile("uint third() { return push.block.records.at[3].c; }\nuint first = third();\n"
                                            "void main() { if (push.warm != 0u) return; push.block.numbers.at[0] = first; }")));
 }
 TEST(EarlyReads, NothingIsWrittenOrCounted) {
-    EXPECT_TRUE(touchesMemoryEarly(compile("uint ticket = atomicAdd(push.block.numbers.at[0], 1u);\nvoid main() { if (push.warm != 0u) return; push.block.numbers.at[ticket] = 1u; }")));
+    EXPECT_TRUE(touchesMemoryEarly(
+        compile("uint ticket = atomicAdd(push.block.numbers.at[0], 1u);\nvoid main() { if (push.warm != 0u) return; push.block.numbers.at[ticket] = 1u; }")));
     EXPECT_TRUE(touchesMemoryEarly(compile("void main() { push.block.numbers.at[0] = 1u; if (push.warm != 0u) return; }")));
 }
 TEST(EarlyReads, AreSeenWhereAShaderHasNoGuard) {

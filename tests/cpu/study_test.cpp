@@ -367,7 +367,8 @@ TEST_F(StudyTest, ResultsSurviveACutLine) {
 TEST_F(StudyTest, SummariesCountWhatIsThere) {
     const Study study = loadStudy(
         write(R"({ "format": 1, "about": "a < b", "scenes": ["box.json"], "seeds": 3, "frames": { "warmup": 1, "measure": [0, 1] },
-        "size": [10, 5], "reference": { "graph": "graph.json", "spp": 2 }, "techniques": { "plain": { "graph": "graph.json", "vary": { "a.spp": [2, 4] } } }, "metrics": ["mse"] })"));
+        "size": [10, 5], "reference": { "graph": "graph.json", "spp": 2 },
+        "techniques": { "plain": { "graph": "graph.json", "vary": { "a.spp": [2, 4] } } }, "metrics": ["mse"] })"));
     const std::vector<StudyRun> runs = expandRuns(study);
     ASSERT_EQ(runs.size(), 6u);
     std::vector<std::string> names;

@@ -22,7 +22,8 @@ TEST(TexelValues, NumbersAsPeopleReadThem) {
     EXPECT_EQ(numberText(255, NUMBER_UNORM8), "1.0000");
     EXPECT_EQ(numberText(~0u, NUMBER_UINT32), "4294967295");  // exact: no float lies between
     EXPECT_EQ(numberText(~0u, NUMBER_INT32), "-1");
-    EXPECT_EQ(probeText({3, 4}, {std::bit_cast<std::uint32_t>(1.0f), std::bit_cast<std::uint32_t>(0.5f), 0, 0}, layoutOf(Format::rg32f)), "(3, 4)  1.0000  0.50000");
+    EXPECT_EQ(probeText({3, 4}, {std::bit_cast<std::uint32_t>(1.0f), std::bit_cast<std::uint32_t>(0.5f), 0, 0}, layoutOf(Format::rg32f)),
+              "(3, 4)  1.0000  0.50000");
 }
 
 TEST(TexelValues, LayoutsOfFormats) {
@@ -33,7 +34,9 @@ TEST(TexelValues, LayoutsOfFormats) {
 }
 
 TEST(TexelValues, LayoutsOfFields) {
-    const auto field = [](const char* type, std::size_t count = 0) { return StructField{.name = "x", .type = type, .offset = 8, .count = count, .size = 4, .members = {}}; };
+    const auto field = [](const char* type, std::size_t count = 0) {
+        return StructField{.name = "x", .type = type, .offset = 8, .count = count, .size = 4, .members = {}};
+    };
     EXPECT_EQ(layoutOf(field("vec3"), 16, 64), (TexelLayout{64, 24, NUMBER_FLOAT32, 3}));
     EXPECT_EQ(layoutOf(field("int"), 0, 64), (TexelLayout{64, 8, NUMBER_INT32, 1}));
     EXPECT_EQ(layoutOf(field("uint64_t"), 0, 64), (TexelLayout{64, 8, NUMBER_UINT32, 1}));

@@ -24,7 +24,9 @@ Variant sixteenLanes() { return {"sixteen_lanes", {{"LP_NATIVE_VECTOR_WIDTH", "5
 Variant withoutAvx512() { return {"without_avx512", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}}, 0, "had to be told"}; }
 /// A CPU whose gathers the compiler does not use, and cannot be told to: reads of different addresses become branches, and reads of one
 /// address happen where a branch forbids them.
-Variant withoutGathers() { return {"without_gathers", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}, {"LD_PRELOAD", CPU_NAME_LIBRARY}, {"CPU_NAME", "znver3"}}, 0, "by texel"}; }
+Variant withoutGathers() {
+    return {"without_gathers", {{"GALLIUM_OVERRIDE_CPU_CAPS", "avx"}, {"LD_PRELOAD", CPU_NAME_LIBRARY}, {"CPU_NAME", "znver3"}}, 0, "by texel"};
+}
 
 struct Case {
     Variant (*variant)();

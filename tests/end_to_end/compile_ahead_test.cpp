@@ -14,9 +14,10 @@ protected:
     };
     Rendered render(const std::string& out, Environment environment) {
         environment.emplace_back("LODESTIR_VALIDATION", "1");
-        const Output output = runProcess({LODESTIR_BINARY, "run", (sourceFolder / "graphs/restir_pt.json").string(), "--scene", (sourceFolder / "scenes/cornell.json").string(),
-                                          "--size", "32x18", "--frames", "1", "--show", "shade", "--out", (folder / out).string()},
-                                         environment, std::chrono::seconds(150));
+        const Output output =
+            runProcess({LODESTIR_BINARY, "run", (sourceFolder / "graphs/restir_pt.json").string(), "--scene", (sourceFolder / "scenes/cornell.json").string(),
+                        "--size", "32x18", "--frames", "1", "--show", "shade", "--out", (folder / out).string()},
+                       environment, std::chrono::seconds(150));
         EXPECT_EQ(output.exitCode, 0) << output.err;
         EXPECT_EQ(output.err.find("validation"), std::string::npos) << output.err;
         if (HasFailure()) return {};

@@ -19,9 +19,10 @@ protected:
     Path write(Carrier carrier, bool turns) {
         GltfModel model;
         const std::vector<float> corners{-.5f, 0, -.5f, .5f, 0, -.5f, .5f, 0, .5f, -.5f, 0, .5f, -.5f, 1, -.5f, .5f, 1, -.5f, .5f, 1, .5f, -.5f, 1, .5f};
-        nlohmann::json box = {{"attributes", {{"POSITION", model.positions(corners)}}},
-                              {"indices", model.indices({0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 4, 5, 0, 5, 1, 1, 5, 6, 1, 6, 2, 2, 6, 7, 2, 7, 3, 3, 7, 4, 3, 4, 0})},
-                              {"material", 0}};
+        nlohmann::json box = {
+            {"attributes", {{"POSITION", model.positions(corners)}}},
+            {"indices", model.indices({0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6, 0, 4, 5, 0, 5, 1, 1, 5, 6, 1, 6, 2, 2, 6, 7, 2, 7, 3, 3, 7, 4, 3, 4, 0})},
+            {"material", 0}};
         if (carrier == Carrier::joint) {
             std::vector<float> weights;
             for (int v = 0; v < 8; ++v) weights.insert(weights.end(), {1, 0, 0, 0});
@@ -34,9 +35,12 @@ protected:
             box["targets"] = {{{"POSITION", model.positions(shift)}}};
         }
         model.addMesh(box);
-        model.addMesh({{"attributes", {{"POSITION", model.positions({-4, 0, -4, -4, 0, 4, 4, 0, 4, 4, 0, -4})}}}, {"indices", model.indices({0, 1, 2, 0, 2, 3})}, {"material", 1}});
+        model.addMesh({{"attributes", {{"POSITION", model.positions({-4, 0, -4, -4, 0, 4, 4, 0, 4, 4, 0, -4})}}},
+                       {"indices", model.indices({0, 1, 2, 0, 2, 3})},
+                       {"material", 1}});
         for (const float red : {0.8f, 0.5f})
-            model.json["materials"].push_back({{"pbrMetallicRoughness", {{"baseColorFactor", {red, 0.5, 0.4, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}});
+            model.json["materials"].push_back(
+                {{"pbrMetallicRoughness", {{"baseColorFactor", {red, 0.5, 0.4, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.6}}}});
         int moved = 0;
         if (carrier == Carrier::joint) {
             moved = 2;

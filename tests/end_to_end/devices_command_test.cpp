@@ -45,8 +45,9 @@ TEST_F(DevicesTest, AGoodDevicePasses) {
 TEST_F(DevicesTest, ACrashOfTheDriverIsTold) {
     const Output text = devices("crash", {});
     EXPECT_EQ(text.exitCode, 1) << text.signal;
-    EXPECT_EQ(text.out, "trivial kernel: crashed (signal 11, Segmentation fault); update the Vulkan driver, choose another device with --device, or another driver "
-                        "with VK_DRIVER_FILES\npath-traced frame: not tried\n");
+    EXPECT_EQ(text.out,
+              "trivial kernel: crashed (signal 11, Segmentation fault); update the Vulkan driver, choose another device with --device, or another driver "
+              "with VK_DRIVER_FILES\npath-traced frame: not tried\n");
     const Output output = devices("crash", {"--json"});
     EXPECT_EQ(output.exitCode, 1);
     const OrderedJson json = OrderedJson::parse(output.out);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The moving furnace has one answer whatever moves in it: reuse across frames in which the chance of every light changes must find it.
 // The study of the same name goes to 0.1 %.
-#include "../../scenes/generate/moving_furnace.h"
+#include "../../scenes/generate/scenes/moving_furnace.h"
 #include "frames.h"
 #include "known_answer.h"
 #include "model.h"

@@ -20,8 +20,8 @@ protected:
     FirstHits hits(const std::string& body, const std::string& scene) {
         const std::string last = std::to_string(lastFrame);
         const Path out = run(body, folder / "levels.json",
-                             {"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "128x72", "--frames", std::to_string(lastFrame + 1), "--rays", body,
-                              "--dump", "hits.hits", "--dump", "hits.depth"});
+                             {"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "128x72", "--frames", std::to_string(lastFrame + 1), "--rays",
+                              body, "--dump", "hits.hits", "--dump", "hits.depth"});
         const std::vector<std::byte> npy = readBytes(out / ("hits.hits." + last + ".npy"));
         FirstHits result{std::vector<PrimaryHit>(128 * 72), readExr(out / ("hits.depth." + last + ".exr"))};
         const std::size_t bytes = result.hits.size() * sizeof(PrimaryHit);
@@ -39,10 +39,11 @@ protected:
         return names;
     }
     void SetUp() override {
-        write("levels.json", {{"format", 1},
-                              {"scene", (sourceFolder / "scenes/rock.json").string()},
-                              {"passes", {{"lod", {{"type", "lod_select"}, {"set", {{"mode", "distance"}, {"distance", 1}}}}}, {"hits", {{"type", "visibility"}}}}},
-                              {"show", "hits.normal"}});
+        write("levels.json",
+              {{"format", 1},
+               {"scene", (sourceFolder / "scenes/rock.json").string()},
+               {"passes", {{"lod", {{"type", "lod_select"}, {"set", {{"mode", "distance"}, {"distance", 1}}}}}, {"hits", {{"type", "visibility"}}}}},
+               {"show", "hits.normal"}});
     }
     static constexpr int lastFrame = 3;
     std::vector<ImageData> frames(const std::string& body, const std::string& scene) {

@@ -68,7 +68,8 @@ protected:
     ~RunnerTest() override { std::filesystem::remove_all(folder); }
 
     template <class T> void add(const std::string& type, const char* shader) {
-        libraries.addBuiltIn(type, Plugin{frameworkAbi().data(), "Test", shader, "A pass of this test.", source.c_str(), []() -> Pass* { return new T; }, nullptr});
+        libraries.addBuiltIn(type,
+                             Plugin{frameworkAbi().data(), "Test", shader, "A pass of this test.", source.c_str(), []() -> Pass* { return new T; }, nullptr});
     }
     void start(const std::string& passes, const std::string& show) {
         const std::string text = R"({"format": 1, "frame": {"size": [20, 12]}, "passes": {)" + passes + R"(}, "show": ")" + show + "\"}";

@@ -51,7 +51,8 @@ void expectSound(const std::string& name, const RoundTrips& trips, double halfWi
             const Ratio ratio = kind.energies()[i]->ratio();
             EXPECT_TRUE(ratio.isOne()) << name << ", " << what << RoundTrips::energyNames[i] << ": " << ratio.value << " +- " << ratio.halfWidth;
             // What it leaves open is no more of the whole energy than the whole may leave open.
-            EXPECT_LE(ratio.halfWidth * kind.energies()[i]->mean() / trips.all.all.mean(), halfWidth) << name << ", " << what << RoundTrips::energyNames[i] << ": inconclusive";
+            EXPECT_LE(ratio.halfWidth * kind.energies()[i]->mean() / trips.all.all.mean(), halfWidth)
+                << name << ", " << what << RoundTrips::energyNames[i] << ": inconclusive";
         }
     };
     for (std::size_t i = 0; i < trips.kinds.size(); ++i) expectBalance(pathEndNames[i], trips.kinds[i]);
@@ -80,9 +81,10 @@ TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Shifts,
-                         testing::Values(Room{"ensemble_diffuse", 0.01}, Room{"ensemble_glossy", 0.01}, Room{"ensemble_layers", 0.015}, Room{"ensemble_glass", 0.015},
-                                         Room{"ensemble_lights", 0.02}, Room{"ensemble_environment", 0.01}, Room{"ensemble_moving", 0.02},
-                                         Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03}, Room{"ensemble_orthographic", 0.01}),
+                         testing::Values(Room{"ensemble_diffuse", 0.01}, Room{"ensemble_glossy", 0.01}, Room{"ensemble_layers", 0.015},
+                                         Room{"ensemble_glass", 0.015}, Room{"ensemble_lights", 0.02}, Room{"ensemble_environment", 0.01},
+                                         Room{"ensemble_moving", 0.02}, Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03},
+                                         Room{"ensemble_orthographic", 0.01}),
                          [](const auto& room) { return std::string(room.param.scene); });
 
 /// Initial sampling, temporal and spatial reuse, each of them shaded: "first", "past" (temporal), "near" (spatial alone), "both".

@@ -399,8 +399,10 @@ TEST_F(TraceAgreement, PanesOfTwoTrianglesDimOnce) {
     scene.place(0, glm::mat4(1));
     const World w = scene.upload(*device_);
     std::vector<Ray> rays;
-    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 16, 0.5f}, .tMin = 0, .direction = {0, 0, -1}, .tMax = farAway, .flags = RAY_THROUGH_PANES});
-    for (int i = 1; i < 16; ++i) rays.push_back({.origin = {float(i) / 16, float(i) / 32, 0.5f}, .tMin = 0, .direction = {0, 0, 1}, .tMax = farAway, .flags = RAY_THROUGH_PANES});
+    for (int i = 1; i < 16; ++i)
+        rays.push_back({.origin = {float(i) / 16, float(i) / 16, 0.5f}, .tMin = 0, .direction = {0, 0, -1}, .tMax = farAway, .flags = RAY_THROUGH_PANES});
+    for (int i = 1; i < 16; ++i)
+        rays.push_back({.origin = {float(i) / 16, float(i) / 32, 0.5f}, .tMin = 0, .direction = {0, 0, 1}, .tMax = farAway, .flags = RAY_THROUGH_PANES});
     for (const auto& [name, body] : bodies_) {
         for (const Hit& shadow : trace(body, w, rays, true)) {
             EXPECT_EQ(shadow.primitive, NONE) << name;

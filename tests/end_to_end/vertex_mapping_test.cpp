@@ -80,7 +80,8 @@ Summary summaryOf(const std::vector<MappingCheck>& points) {
     std::vector<double> area, image, whole;
     for (const MappingCheck& p : points) {
         EXPECT_TRUE(has(p, MAPPING_TRIED));
-        for (const float v : {p.area, p.stretch, p.errorJacobian, p.errorReturn, p.finiteDifference, p.image.x, p.image.y, p.image.z}) EXPECT_TRUE(std::isfinite(v));
+        for (const float v : {p.area, p.stretch, p.errorJacobian, p.errorReturn, p.finiteDifference, p.image.x, p.image.y, p.image.z})
+            EXPECT_TRUE(std::isfinite(v));
         ++s.points;
         s.held += has(p, MAPPING_HELD);
         s.notHeld += !has(p, MAPPING_HELD) && p.here > 0 && p.edge * p.thickness > 4;
@@ -106,8 +107,10 @@ Summary summaryOf(const std::vector<MappingCheck>& points) {
 }
 
 void print(const std::string& name, const Summary& s) {
-    std::printf("%-18s mapped %.5f of the area, %zu of %zu points, %zu lost on the way back; return <= %.1e, |JJ'-1| <= %.1e, differences %zu <= %.1e; %zu past a nearer one, %zu thin\n",
-                name.c_str(), s.share(), s.there, s.points, s.there - s.same, s.worstReturn, s.worstJacobian, s.differences, s.worstDifference, s.passed, s.thinOnes);
+    std::printf(
+        "%-18s mapped %.5f of the area, %zu of %zu points, %zu lost on the way back; return <= %.1e, |JJ'-1| <= %.1e, differences %zu <= %.1e; %zu past a "
+        "nearer one, %zu thin\n",
+        name.c_str(), s.share(), s.there, s.points, s.there - s.same, s.worstReturn, s.worstJacobian, s.differences, s.worstDifference, s.passed, s.thinOnes);
 }
 
 /// All that must hold of any mesh; `least`: share of its area that is mapped.
@@ -150,7 +153,8 @@ TEST_P(Meshes, ComeBackAndKeepTheirArea) {
         if (mesh.levels.size() < 2 || !seen.insert(index).second) continue;
         for (int a = 0; a < int(mesh.levels.size()); ++a) {
             for (int b = a + 1; b < int(mesh.levels.size()); ++b) {
-                const std::string name = mesh.name + " " + std::to_string(a) + ">" + std::to_string(b), inverse = mesh.name + " " + std::to_string(b) + ">" + std::to_string(a);
+                const std::string name = mesh.name + " " + std::to_string(a) + ">" + std::to_string(b),
+                                  inverse = mesh.name + " " + std::to_string(b) + ">" + std::to_string(a);
                 const Summary there = summaryOf(points.map(i, a, b)), back = summaryOf(points.map(i, b, a));
                 expectSound(name, there, GetParam().least);
                 expectSound(inverse, back, GetParam().least);
@@ -218,7 +222,8 @@ TEST(Cube, EachFaceStaysItself) {
         ++clear;
         other += faceOf(from) != faceOf(to);
     }
-    std::printf("cube: %zu of %zu points with six on both levels, %zu on a face, %zu of them to another, %zu past a nearer one\n", six, mapped.size(), clear, other, passed);
+    std::printf("cube: %zu of %zu points with six on both levels, %zu on a face, %zu of them to another, %zu past a nearer one\n", six, mapped.size(), clear,
+                other, passed);
     EXPECT_GT(six, mapped.size() * 99 / 100);
     EXPECT_GT(clear, mapped.size() / 2);
     EXPECT_EQ(other, 0u);
@@ -248,7 +253,8 @@ TEST_F(PointsOfSheets, Identity) {
 TEST_F(PointsOfSheets, UnequalCounts) {
     // Both halves of level 0 have the same coordinates; level 1 has the right one alone, so that the left one is lost.
     const auto doubled = [](const SheetPoint& p) { return std::optional(glm::dvec2(p.at.x - (p.cell.x > 0.5 ? 0.5 : 0), p.at.y)); };
-    const std::vector<SheetLevel> levels{{.cells = 8, .place = flat, .uv = doubled}, {.cells = 4, .place = flat, .uv = doubled, .has = [](glm::dvec2 cell) { return cell.x > 0.5; }}};
+    const std::vector<SheetLevel> levels{{.cells = 8, .place = flat, .uv = doubled},
+                                         {.cells = 4, .place = flat, .uv = doubled, .has = [](glm::dvec2 cell) { return cell.x > 0.5; }}};
     for (const MappingCheck& p : map(levels, 0, 1)) {
         EXPECT_TRUE(!has(p, MAPPING_HELD) || has(p, MAPPING_THERE) == (p.position.x > 0)) << p.position.x << " " << p.edge;
         EXPECT_TRUE(!has(p, MAPPING_THERE) || glm::distance(p.position, p.image) < 1e-5f);

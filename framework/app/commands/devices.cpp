@@ -101,7 +101,8 @@ void addDevices(CLI::App& app, std::function<int()>& run) {
     const auto options = std::make_shared<Options>();
     command->add_option("--device", options->device, "index or part of the name: marks what this choice means");
     command->add_flag("--json", options->json, "prints JSON");
-    CLI::Option* test = command->add_flag("--test", options->test, "instead of the list: runs a small kernel and a small frame on the chosen device, apart, and says whether they work");
+    CLI::Option* test = command->add_flag("--test", options->test,
+                                          "instead of the list: runs a small kernel and a small frame on the chosen device, apart, and says whether they work");
     command->add_option("--rays", options->rays, "with --test, how rays are traced: packet, lane or ray_query")->check(checkNotEmpty)->needs(test);
     command->add_option("--limit", options->limit, "with --test, seconds that each may take")->check(checkPositive)->needs(test)->capture_default_str();
     command->callback([options, &run] { run = [options] { return options->test ? testDevice(*options) : listDevices(*options); }; });

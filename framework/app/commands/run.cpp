@@ -56,7 +56,8 @@ void warnOfSameSeed(const Path& reference, std::uint32_t seed) {
     const Json* frame = graph.find("frame");
     const Json* used = frame ? frame->find("seed") : nullptr;
     if (used && used->isNumber() && used->asInt() == std::int64_t(seed))
-        log::warn("{}: rendered with the same seed ({}), so it shares this image's noise and errors come out too small; give another --seed", reference.string(), seed);
+        log::warn("{}: rendered with the same seed ({}), so it shares this image's noise and errors come out too small; give another --seed",
+                  reference.string(), seed);
 }
 
 /// Is it what a run writes of a frame: SHOWN.12.exr or .png?
@@ -141,8 +142,10 @@ int runGraph(const RunOptions& options) {
         throw Error(fmt::format("interrupted by {} after {} of {} frames, which are whole: {}", interrupt.name(), done, count,
                                 options.out.string()));
     if (!session.device().validationMessages().empty())
-        throw Error(std::to_string(session.device().validationMessages().size()) + " validation messages; the first: " + session.device().validationMessages()[0]);
-    log::note("{} frames of {}x{} on {} ({}): {}", count, runner.size().x, runner.size().y, session.device().facts().name, nameOf(session.rays()), options.out.string());
+        throw Error(std::to_string(session.device().validationMessages().size()) +
+                    " validation messages; the first: " + session.device().validationMessages()[0]);
+    log::note("{} frames of {}x{} on {} ({}): {}", count, runner.size().x, runner.size().y, session.device().facts().name, nameOf(session.rays()),
+              options.out.string());
     return 0;
 }
 

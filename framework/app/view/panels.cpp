@@ -45,7 +45,9 @@ TexelLayout Panels::layout() const {
 void Panels::sendShow() {
     const TexelLayout layout = this->layout();
     const Shown& shown = shownOf_[port_];
-    send([port = port_, layout, pick = shown.look.pick, statistics = wantsStatistics_ || shown.automatic](ViewSession& s) { s.show(port, layout, pick, statistics); });
+    send([port = port_, layout, pick = shown.look.pick, statistics = wantsStatistics_ || shown.automatic](ViewSession& s) {
+        s.show(port, layout, pick, statistics);
+    });
 }
 
 void Panels::moveCamera(const std::optional<CameraKey>& camera) {
@@ -127,7 +129,8 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_N)) send([](ViewSession& s) { s.step(); });
     if (pressed(GLFW_KEY_R)) send([](ViewSession& s) { s.resetHistory(); });
     if (pressed(GLFW_KEY_C)) moveCamera({});
-    if (pressed(GLFW_KEY_F) && graph_) moveCamera(framed(viewport_.camera().value_or(status.camera.key), graph_->bounds, float(graph_->size.x) / float(graph_->size.y)));
+    if (pressed(GLFW_KEY_F) && graph_)
+        moveCamera(framed(viewport_.camera().value_or(status.camera.key), graph_->bounds, float(graph_->size.x) / float(graph_->size.y)));
     if (pressed(GLFW_KEY_0)) viewport_.fit();
     if (pressed(GLFW_KEY_1)) viewport_.zoomTo(1);
     if (pressed(GLFW_KEY_2)) viewport_.zoomTo(2);
@@ -222,7 +225,8 @@ void Panels::drawCamera(const ViewStatus& status) {
 void Panels::drawOutput(const ViewStatus& status) {
     heading("OUTPUT");
     const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
-    if (button("save", "Save image", "EXR and PNG of what is shown, with the graph in the header: S", third)) send([out = out_](ViewSession& s) { s.save(out); });
+    if (button("save", "Save image", "EXR and PNG of what is shown, with the graph in the header: S", third))
+        send([out = out_](ViewSession& s) { s.save(out); });
     ImGui::SameLine();
     if (button("save graph", "Save graph", "the graph with all that is set now, for `lodestir run`", third))
         send([file = out_ / (graph_->file.stem().string() + ".json")](ViewSession& s) { s.saveGraph(file); });

@@ -93,7 +93,9 @@ void Panels::drawFacts(const ViewStatus& status) {
     fact("a frame", fmt::format("{} ms   {:.1f} a second", timeText(status.wallMilliseconds), status.wallMilliseconds > 0 ? 1000 / status.wallMilliseconds : 0),
          "from start to end, with all that the CPU does in between");
     fact("size", fmt::format("{} x {}   zoom {:.0f} %", graph_->size.x, graph_->size.y, 100 * viewport_.zoom()));
-    fact("memory", bytesText(double(graph_->memoryBytes)) + fmt::format("   {:.0f} B a pixel", double(graph_->memoryBytes) / (double(graph_->size.x) * graph_->size.y)), "of the ports");
+    fact("memory",
+         bytesText(double(graph_->memoryBytes)) + fmt::format("   {:.0f} B a pixel", double(graph_->memoryBytes) / (double(graph_->size.x) * graph_->size.y)),
+         "of the ports");
     fact("rays by", graph_->rays);
     fact("device", graph_->device.substr(0, graph_->device.find(" (")), graph_->device);
     if (graph_->software) quietText("times are the CPU's: rays and ratios\nmean more than milliseconds");
@@ -115,7 +117,9 @@ void Panels::drawProblems(const ViewStatus& status) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, palette().badBack);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 5);
     ImGui::Begin("problems", nullptr, (fixedWindow & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::TextColored(palette().bad, "%s", graph_ ? "What was saved last doesn't work; what worked before goes on." : "This doesn't work yet; it is read again when a file changes.");
+    ImGui::TextColored(
+        palette().bad, "%s",
+        graph_ ? "What was saved last doesn't work; what worked before goes on." : "This doesn't work yet; it is read again when a file changes.");
     ImGui::PushFont(figureFont());
     ImGui::PushTextWrapPos(width - 14);
     for (const std::string& problem : status.problems) ImGui::TextUnformatted(problem.c_str());

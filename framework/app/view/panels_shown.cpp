@@ -37,7 +37,8 @@ void Panels::drawShown() {
             }
             mark("port: " + other.name);
             ImGui::PopStyleColor();
-            tip(other.doc + "\n" + other.text + "\n" + bytesText(double(other.bytes)) + (other.runs ? "" : "\nits pass doesn't run now; choosing it has it run"));
+            tip(other.doc + "\n" + other.text + "\n" + bytesText(double(other.bytes)) +
+                (other.runs ? "" : "\nits pass doesn't run now; choosing it has it run"));
             ImGui::SameLine(220);
             quietText(other.text);
         }
@@ -82,7 +83,8 @@ void Panels::drawLook(Shown& shown, const PortField& field) {
         again = true;
     }
     mark("look");
-    tip("colour: exposed, tone-mapped, sRGB\nsigned: zero is mid-grey, for normals and motion\ngrey, heat: one number over a range\nids: each whole number its own colour\nNot a number and infinity are bright green.");
+    tip("colour: exposed, tone-mapped, sRGB\nsigned: zero is mid-grey, for normals and motion\ngrey, heat: one number over a range\nids: each whole number its "
+        "own colour\nNot a number and infinity are bright green.");
     ImGui::SameLine();
     ImGui::SetNextItemWidth(half);
     if (look.look == LOOK_COLOR) {
@@ -120,7 +122,8 @@ void Panels::drawLook(Shown& shown, const PortField& field) {
         float range[2] = {look_.low, look_.high};
         ImGui::SetNextItemWidth(-1);
         const float speed = std::max(0.002f * std::abs(range[1] - range[0]), 1e-6f);
-        if (look.look == LOOK_SIGNED ? ImGui::DragFloat("##range", &range[1], speed, 1e-6f, 1e9f, "+- %.4g") : ImGui::DragFloat2("##range", range, speed, 0, 0, "%.4g")) {
+        if (look.look == LOOK_SIGNED ? ImGui::DragFloat("##range", &range[1], speed, 1e-6f, 1e9f, "+- %.4g")
+                                     : ImGui::DragFloat2("##range", range, speed, 0, 0, "%.4g")) {
             again = again || shown.automatic;
             shown.automatic = false;
             look.low = range[0];

@@ -31,7 +31,9 @@ std::vector<std::uint32_t> falseColors() {
 }  // namespace
 
 PicturePainter::PicturePainter(const gpu::Device& device)
-    : device_(device), ramp_(gpu::makeBuffer(device, std::span<const std::uint32_t>(falseColors()), "picture: false colours")), probe_(device, 16, gpu::Memory::readback, "picture: probe") {
+    : device_(device),
+      ramp_(gpu::makeBuffer(device, std::span<const std::uint32_t>(falseColors()), "picture: false colours")),
+      probe_(device, 16, gpu::Memory::readback, "picture: probe") {
     const auto make = [&](const char* name, std::uint32_t pushBytes) {
         const gpu::Spirv spirv = gpu::compileShader({.file = shaderFolder() / "view" / name, .folders = {shaderFolder()}, .generated = {}, .defines = {}});
         gpu::Pipeline pipeline(device, spirv, {}, pushBytes, name);
@@ -43,8 +45,8 @@ PicturePainter::PicturePainter(const gpu::Device& device)
     placement_ = make("place_picture.comp", sizeof(PlacePicture));
 }
 
-void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, const TexelLayout& layout, const Look& look, const Rectangle& place, const glm::mat3& toImage,
-                             glm::ivec2 probe, bool blueFirst) {
+void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, const TexelLayout& layout, const Look& look, const Rectangle& place,
+                             const glm::mat3& toImage, glm::ivec2 probe, bool blueFirst) {
     const std::size_t texels = std::size_t(picture.extent.x) * picture.extent.y * 4, pixels = std::size_t(place.size.x) * std::size_t(place.size.y) * 4;
     if (colors_.size() < texels) colors_ = gpu::Buffer(device_, texels, gpu::Memory::device, "picture: colours");
     if (target_.size() < pixels) target_ = gpu::Buffer(device_, pixels, gpu::Memory::device, "picture: viewport");

@@ -6,7 +6,9 @@
 namespace lodestir {
 
 RenderThread::RenderThread(const SessionOptions& options, std::shared_ptr<const gpu::Device> device, std::uint64_t frames, std::function<void()> wake)
-    : wake_(std::move(wake)), status_(std::make_shared<ViewStatus>()), thread_([this, options, device = std::move(device), frames] { run(options, device, frames); }) {}
+    : wake_(std::move(wake)),
+      status_(std::make_shared<ViewStatus>()),
+      thread_([this, options, device = std::move(device), frames] { run(options, device, frames); }) {}
 
 RenderThread::~RenderThread() {
     {

@@ -20,7 +20,8 @@ Swapchain::Swapchain(const gpu::Device& device, const Window& window) : device_(
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface_, &count, nullptr), "vkGetPhysicalDeviceSurfaceFormatsKHR");
     std::vector<VkSurfaceFormatKHR> formats(count);
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface_, &count, formats.data()), "vkGetPhysicalDeviceSurfaceFormatsKHR");
-    const auto found = std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) { return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM; });
+    const auto found =
+        std::ranges::find_if(formats, [](const VkSurfaceFormatKHR& f) { return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM; });
     if (!can || found == formats.end()) {
         vkDestroySurfaceKHR(device.instance(), surface_, nullptr);
         throw Error("device \"" + device.facts().name + "\" can't draw into this window", "choose another with --device, see `lodestir devices`");

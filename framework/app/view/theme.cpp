@@ -27,12 +27,14 @@ ImFont* plainFont() { return ImGui::GetIO().Fonts->Fonts[0]; }
 ImFont* figureFont() { return ImGui::GetIO().Fonts->Fonts[1]; }
 
 void setTheme() {
-    addFont({"/usr/share/fonts/opentype/inter/Inter-Regular.otf", "/usr/share/fonts/truetype/inter/Inter-Regular.ttf", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf",
-             "/usr/share/fonts/noto/NotoSans-Regular.ttf", "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-             "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"},
-            textSize);
-    addFont({"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "/usr/share/fonts/TTF/DejaVuSansMono.ttf", "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf",
-             "/usr/share/fonts/noto/NotoSansMono-Regular.ttf", "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf"},
+    addFont(
+        {"/usr/share/fonts/opentype/inter/Inter-Regular.otf", "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
+         "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/noto/NotoSans-Regular.ttf", "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+         "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"},
+        textSize);
+    addFont({"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+             "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf", "/usr/share/fonts/noto/NotoSansMono-Regular.ttf",
+             "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf"},
             textSize - 1);
 
     ImGui::StyleColorsDark();

@@ -83,7 +83,10 @@ void ViewSession::build() {
     const auto given = given_;
     attempt([&] {
         try {
-            SessionParts parts{.device = device_, .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr, .adjust = [this](Graph& graph) { adjust(graph); }, .slice = 20};
+            SessionParts parts{.device = device_,
+                               .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr,
+                               .adjust = [this](Graph& graph) { adjust(graph); },
+                               .slice = 20};
             parts.compiled = [this](std::size_t done, std::size_t all) {
                 status_.busy = fmt::format("compiling shader {} of {}", std::min(done + 1, all), all);
                 tell();
@@ -286,7 +289,9 @@ void ViewSession::watchFiles() {
 void ViewSession::reloadChanged() {
     const std::vector<Path> changed = watch_.changed();
     if (changed.empty()) return;
-    const auto isShader = [&](const Path& file) { return file.extension() != ".json" && file != std::filesystem::absolute(options_.graph) && (!session_ || file != session_->scene().file); };
+    const auto isShader = [&](const Path& file) {
+        return file.extension() != ".json" && file != std::filesystem::absolute(options_.graph) && (!session_ || file != session_->scene().file);
+    };
     if (session_ && std::ranges::find(changed, session_->scene().file) != changed.end()) rereadScene_ = true;
     if (!session_ || broken_ || !std::ranges::all_of(changed, isShader)) return build();
 

@@ -27,7 +27,8 @@ struct BvhNode {
     std::array<std::uint32_t, 16> dwords;
 };
 
-/// v0, e1 = v1 - v0, e2 = v2 - v0 in grid steps from BvhGrid::origin(); then `mask`: material index + 1 where hits are to be tested against its alpha mask, 0: opaque; then two spare words.
+/// v0, e1 = v1 - v0, e2 = v2 - v0 in grid steps from BvhGrid::origin(); then `mask`: material index + 1 where hits are to be tested against its
+/// alpha mask, 0: opaque; then two spare words.
 struct BvhTriangle {
     glm::vec3 v0, e1, e2;
     std::uint32_t mask = 0, spare0 = 0, spare1 = 0;

@@ -40,7 +40,8 @@ Compressed readExtension(const GltfFile& file, const tinygltf::Value& object, co
         return static_cast<std::size_t>(value);
     };
     const std::size_t buffer = natural("buffer", -1), offset = natural("byteOffset", 0), length = natural("byteLength", -1);
-    Compressed c{.count = natural("count", -1), .stride = natural("byteStride", -1), .mode = textOf(object, "mode", ""), .filter = textOf(object, "filter", "NONE")};
+    Compressed c{
+        .count = natural("count", -1), .stride = natural("byteStride", -1), .mode = textOf(object, "mode", ""), .filter = textOf(object, "filter", "NONE")};
     if (buffer >= file.buffers.size()) throw file.error(pointer, fmt::format("there is no buffer {}, the file has {}", buffer, file.buffers.size()));
     const std::vector<std::byte>& from = file.buffers[buffer];
     if (offset > from.size() || length > from.size() - offset)
@@ -116,7 +117,8 @@ void decodeMeshopt(GltfFile& file, Problems& problems) {
             try {
                 const Compressed compressed = readExtension(file, *object, pointer);
                 if (view.byteLength != compressed.count * compressed.stride)
-                    throw file.error(pointer, fmt::format("{} elements of {} bytes are not the view's {} bytes", compressed.count, compressed.stride, view.byteLength));
+                    throw file.error(pointer,
+                                     fmt::format("{} elements of {} bytes are not the view's {} bytes", compressed.count, compressed.stride, view.byteLength));
                 std::vector<std::byte> data = decode(file, compressed, pointer);
                 file.buffers.push_back(std::move(data));
                 view.buffer = static_cast<int>(file.buffers.size()) - 1;

@@ -185,6 +185,8 @@ std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
 
 WorldBuilder::~WorldBuilder() = default;
 
+SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives, geometry_->vertices}; }
+
 std::size_t WorldBuilder::memoryBytes() const {
     const Geometry& g = *geometry_;
     const auto bytes = [](const auto&... lists) { return ((lists.size() * sizeof(lists[0])) + ...); };

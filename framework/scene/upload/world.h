@@ -2,9 +2,9 @@
 // Puts a scene into GPU memory and makes the World of each frame: what a World port holds.
 #pragma once
 #include <framework/gpu/buffer.h>
-#include <framework/scene/upload/bottom_levels.h>
+#include <framework/scene/records.h>
 #include <framework/scene/scene.h>
-#include <framework/shaders/world/world.h>
+#include <framework/scene/upload/bottom_levels.h>
 
 #include <memory>
 
@@ -25,6 +25,7 @@ public:
     /// The World at a frame (fractions are fine), for an image of `size` pixels, with the levels of the scene's own policy. Transforms, the
     /// top level, lights and meshes that deform are made anew only when something moved; a World handed out earlier stays as it was.
     FrameWorld at(float frame, glm::uvec2 size);
+    SceneRecords records() const;
     std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
 
 private:

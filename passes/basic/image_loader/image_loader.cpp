@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // An image file as the output of a pass: a reference beside what is rendered, a backdrop, a mask.
+#include <framework/pass/image.h>
 #include <framework/pass/pass.h>
-#include <framework/image/image_file.h>
 
 #include <algorithm>
 #include <array>

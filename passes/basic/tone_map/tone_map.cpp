@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From scene-linear radiance to what a display shows.
 #include <framework/pass/pass.h>
-#include <framework/scene/scene.h>
+#include <framework/pass/scene.h>
 
 #include <bit>
 

@@ -7,7 +7,8 @@ using namespace lodestir;
 
 struct Visibility final : Pass {
     In<World>               world{this, "world", "the scene"};
-    In<World>               worldPrev{this, "worldPrev", "last frame's scene, for motion; unwired: motion of the camera and of the instances is zero", Need::optional};
+    In<World>               worldPrev{this, "worldPrev", "last frame's scene, for motion; unwired: motion of the camera and of the instances is zero",
+                                      Need::optional};
     Out<Buffer<PrimaryHit>> hits{this, "hits", "first hit of each pixel, with its film and lens sample", Count::perPixel()};
     Out<Image>              motion{this, "motion", "from this frame's position of the hit to last frame's, pixels, y down", Format::rg32f};
     Out<Image>              depth{this, "depth", "distance along the view direction, scene units; 0 where nothing was hit", Format::r32f};

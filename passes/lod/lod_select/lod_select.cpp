@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which level each instance shows.
 #include <framework/pass/pass.h>
-
-#include <framework/gpu/buffer.h>
-#include <framework/scene/level_policy.h>
+#include <framework/pass/scene.h>
 
 #include <bit>
 #include <cstring>
@@ -31,11 +29,11 @@ struct LodSelect final : Pass {
         std::vector<std::uint32_t> levels(scene.instances.size(), 0);
         if (chosen == Mode::schedule) levels = scheduledLevels(scene, float(frame.index()) + float(int(lead)));
         levels.push_back(0);
-        const auto memory = std::make_shared<gpu::Buffer>(gpu::makeBuffer(frame.device(), std::span<const std::uint32_t>(levels), "levels"));
+        const Memory memory = frame.upload(levels, "levels");
         World made;
         std::memcpy(&made, frame.valueOf(world).data(), sizeof made);
-        made.levels = memory->address();
-        frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory);
+        made.levels = memory.address;
+        frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
         frame.dispatch(shader, {std::uint32_t(levels.size() - 1), 1}, {std::uint32_t(chosen), std::bit_cast<std::uint32_t>(limit)});
     }

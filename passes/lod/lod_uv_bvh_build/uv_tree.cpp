@@ -42,23 +42,38 @@ void build(UvTrees& trees, std::uint32_t node, std::span<UvTriangle> triangles) 
     build(trees, made.first + 1, triangles.subspan(half));
 }
 
-}  // namespace
-
-std::uint32_t addUvTree(UvTrees& trees, const MeshLevel& level, std::span<const std::uint32_t> order, std::uint32_t firstPrimitive) {
-    if (level.uv0.empty()) return NONE;
+/// Adds the tree of a level and returns its root.
+std::uint32_t addTree(UvTrees& trees, const SceneRecords& scene, const LevelRecord& level) {
     std::vector<UvTriangle> triangles;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const glm::uvec3 corners = level.triangles[order[i]];
-        const glm::vec2 a = level.uv0[corners.x], b = level.uv0[corners.y], c = level.uv0[corners.z], e = b - a, f = c - a;
+    for (std::uint32_t i = level.firstPrimitive; i < level.firstPrimitive + level.primitiveCount; ++i) {
+        const PrimitiveRecord& corners = scene.primitives[i];
+        const glm::vec2 a = scene.vertices[corners.v0].uv0, b = scene.vertices[corners.v1].uv0, c = scene.vertices[corners.v2].uv0, e = b - a, f = c - a;
         const float area = std::abs(e.x * f.y - e.y * f.x);
         if (!(area > 0) || !std::isfinite(area)) continue;
-        triangles.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), firstPrimitive + std::uint32_t(i)});
+        triangles.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), i});
     }
     if (triangles.empty()) return NONE;
     const auto root = std::uint32_t(trees.nodes.size());
     trees.nodes.emplace_back();
     build(trees, root, triangles);
     return root;
+}
+
+}  // namespace
+
+UvTrees uvTrees(const SceneRecords& scene) {
+    UvTrees trees;
+    trees.roots.assign(scene.meshLevels.size(), NONE);
+    for (std::size_t mesh = 0; mesh < scene.meshLevels.size(); mesh += LEVELS) {
+        const auto levels = scene.meshLevels.subspan(mesh, LEVELS);
+        const auto repeats = [&](std::size_t l) {
+            return levels[l].firstPrimitive == levels[l - 1].firstPrimitive && levels[l].primitiveCount == levels[l - 1].primitiveCount;
+        };
+        if (repeats(1)) continue;  // there is but one
+        for (std::size_t l = 0; l < LEVELS; ++l)
+            trees.roots[mesh + l] = l > 0 && repeats(l) ? trees.roots[mesh + l - 1] : addTree(trees, scene, levels[l]);
+    }
+    return trees;
 }
 
 }  // namespace lodestir

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A binary tree of boxes in UV over the triangles of a mesh level.
+// Binary trees of boxes in UV over the triangles of mesh levels.
 #pragma once
-#include <framework/scene/scene.h>
+#include <framework/pass/scene.h>
 #include <passes/lod/uv_index.h>
 
-#include <span>
+#include <cstdint>
 #include <vector>
 
 namespace lodestir {
@@ -15,8 +15,8 @@ struct UvTrees {
     std::vector<std::uint32_t> primitives, roots;
 };
 
-/// Adds the tree of a level and returns its root. `order`: the level's triangles as they lie on the GPU from `firstPrimitive` on. Triangles
-/// without area in UV are left out: no map can be told through them. The tree is at most 31 nodes deep.
-std::uint32_t addUvTree(UvTrees& trees, const MeshLevel& level, std::span<const std::uint32_t> order, std::uint32_t firstPrimitive);
+/// The trees of all meshes that show several levels. Triangles without area in UV are left out: no map can be told through them. Trees are at
+/// most 31 nodes deep.
+UvTrees uvTrees(const SceneRecords& scene);
 
 }  // namespace lodestir

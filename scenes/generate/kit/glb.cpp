@@ -65,6 +65,7 @@ struct Glb::Tables {
 };
 
 Glb::Glb() : tables(std::make_unique<Tables>()) {}
+Glb::Glb(Glb&&) noexcept = default;
 Glb::~Glb() = default;
 
 void Glb::use(const std::string& extension) {

@@ -9,15 +9,19 @@
 
 #include <functional>
 #include <numbers>
+#include <utility>
 
-#include "random.h"
-#include "scenes.h"
-#include "shapes.h"
-#include "still_life.h"
+#include "kit/motion.h"
+#include "kit/random.h"
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/still_life.h"
 
 namespace lodestir::generate {
 
 namespace {
+
+constexpr int second = 24;  ///< pieces of motion
 
 /// A Lambertian surface that reflects `albedo` and glows so that a sky of radiance 1 leaves it at radiance 1.
 Material balanced(const std::string& name, float albedo) {
@@ -26,20 +30,6 @@ Material balanced(const std::string& name, float albedo) {
     material.doubleSided = true;
     return material;
 }
-
-/// One second of motion, in linear pieces.
-void move(Glb& glb, int node, Motion motion, const std::function<glm::vec4(float)>& at) {
-    constexpr int pieces = 24;
-    std::vector<float> seconds;
-    std::vector<glm::vec4> values;
-    for (int i = 0; i <= pieces; ++i) {
-        seconds.push_back(float(i) / pieces);
-        values.push_back(at(seconds.back()));
-    }
-    glb.animate(node, motion, seconds, values);
-}
-
-glm::vec4 asVector(const glm::quat& q) { return {q.x, q.y, q.z, q.w}; }
 
 /// Positions of `mesh` sent through `bend`.
 std::vector<glm::vec3> bentPositions(const Mesh& mesh, const std::function<glm::vec3(const glm::vec3&)>& bend) {
@@ -76,15 +66,16 @@ void addBooth(Composition& c, int lining, int shell) {
 void addGuests(Composition& c, int third, int half) {
     constexpr float turn = 2 * std::numbers::pi_v<float>;
     const int crate = c.put("crate", half, plainBox({0.5f, 0.4f, 0.6f}), {.translation = {-2.3f, 0.5f, 0}});
-    move(c.glb, crate, Motion::translation, [](float t) { return glm::vec4(-2.3f + 0.5f * t, 0.5f + 0.4f * std::sin(turn * t), 0.7f * std::sin(turn * t), 0); });
-    move(c.glb, crate, Motion::rotation, [](float t) { return asVector(glm::angleAxis(2 * t, glm::normalize(glm::vec3(0.3f, 1, 0.2f)))); });
+    animate(c.glb, crate, Motion::translation, second,
+            [](float t) { return glm::vec4(-2.3f + 0.5f * t, 0.5f + 0.4f * std::sin(turn * t), 0.7f * std::sin(turn * t), 0); });
+    animate(c.glb, crate, Motion::rotation, second, [](float t) { return asVector(glm::angleAxis(2 * t, glm::normalize(glm::vec3(0.3f, 1, 0.2f)))); });
     const int slab = c.put("slab", third, plainBox({0.5f, 0.5f, 0.5f}), {.translation = {-1.1f, 1.2f, -0.5f}});
-    move(c.glb, slab, Motion::scale, [](float t) { return glm::vec4(1 - 0.7f * t, 0.4f + 1.2f * t, 1 + 0.8f * std::sin(turn * t), 0); });
-    move(c.glb, slab, Motion::rotation, [](float t) { return asVector(glm::angleAxis(-1.5f * t, glm::vec3(0, 0, 1))); });
+    animate(c.glb, slab, Motion::scale, second, [](float t) { return glm::vec4(1 - 0.7f * t, 0.4f + 1.2f * t, 1 + 0.8f * std::sin(turn * t), 0); });
+    animate(c.glb, slab, Motion::rotation, second, [](float t) { return asVector(glm::angleAxis(-1.5f * t, glm::vec3(0, 0, 1))); });
     const Mesh box = plainBox({0.3f, 0.3f, 0.3f});
     const int morphing = putMorphing(c.glb, "bar", half, box, bentPositions(box, [](const glm::vec3& p) { return p * glm::vec3(3, 0.5f, 2); }),
                                      {.translation = {-1, 0.5f, 0.6f}, .rotation = turnY(20)});
-    move(c.glb, morphing, Motion::weight, [](float t) { return glm::vec4(0.5f - 0.5f * std::cos(turn * t), 0, 0, 0); });
+    animate(c.glb, morphing, Motion::weight, second, [](float t) { return glm::vec4(0.5f - 0.5f * std::cos(turn * t), 0, 0, 0); });
 }
 
 /// Glowing things that keep out of the way between the panels and their lights.
@@ -92,18 +83,18 @@ void addLamps(Composition& c, int glowing) {
     constexpr float turn = 2 * std::numbers::pi_v<float>;
     const int comet = c.put("comet", glowing, gem(6), {.translation = {50, 15, 35}, .scale = glm::vec3(0.6f)});
     // The scene shrinks by a tenth a frame, and with it the chance of the sun and the sky.
-    move(c.glb, comet, Motion::translation, [](float t) { return glm::vec4(glm::vec3(5, 1.5f, 3.5f) * std::pow(10.0f, 1 - t), 0); });
+    animate(c.glb, comet, Motion::translation, second, [](float t) { return glm::vec4(glm::vec3(5, 1.5f, 3.5f) * std::pow(10.0f, 1 - t), 0); });
     const int banner = c.put("banner", glowing, plainBox({0.2f, 1, 1}), {.translation = {4.4f, 1.2f, 0}});
-    move(c.glb, banner, Motion::scale, [](float t) { return glm::vec4(1, 0.3f + 2.2f * t, 1.6f - 1.4f * t, 0); });
-    move(c.glb, banner, Motion::rotation, [](float t) { return asVector(turnY(80 * t)); });
+    animate(c.glb, banner, Motion::scale, second, [](float t) { return glm::vec4(1, 0.3f + 2.2f * t, 1.6f - 1.4f * t, 0); });
+    animate(c.glb, banner, Motion::rotation, second, [](float t) { return asVector(turnY(80 * t)); });
     Random random(5);
     const Mesh stone = gem(7);
     const int morphing = putMorphing(c.glb, "stone", glowing, stone, bentPositions(stone, [&](const glm::vec3& p) { return p * random.between(1.5f, 3); }),
                                      {.translation = {3.9f, 0.6f, -2.6f}, .scale = glm::vec3(0.35f)});
-    move(c.glb, morphing, Motion::weight, [](float t) { return glm::vec4(std::sin(0.5f * turn * t), 0, 0, 0); });
+    animate(c.glb, morphing, Motion::weight, second, [](float t) { return glm::vec4(std::sin(0.5f * turn * t), 0, 0, 0); });
 }
 
-void writeMovingFurnace(const std::filesystem::path& folder) {
+Glb makeMovingFurnace() {
     using namespace furnace;
     Composition c;
     const int third = c.glb.addMaterial(balanced("a third", 0.3f)), half = c.glb.addMaterial(balanced("half", 0.5f)),
@@ -117,11 +108,11 @@ void writeMovingFurnace(const std::filesystem::path& folder) {
     c.glb.addNode(LightSource{.name = "bulb", .kind = Kind::point, .intensity = bulb.intensity}, {.translation = bulb.position});
     c.glb.addNode(LightSource{.name = "spot", .kind = Kind::spot, .intensity = spot.intensity, .innerDegrees = spotInner, .outerDegrees = spotOuter},
                   {.translation = spot.position, .rotation = turnTo(spotTarget - spot.position)});
-    c.glb.write(folder / "moving_furnace.glb");
+    return std::move(c.glb);
 }
 
 }  // namespace
 
-LODESTIR_SCENE(moving_furnace, writeMovingFurnace)
+LODESTIR_SCENE(makeMovingFurnace)
 
 }  // namespace lodestir::generate

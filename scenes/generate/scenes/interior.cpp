@@ -2,18 +2,18 @@
 // A dining room on a summer afternoon: sun through a window and a garden door on herringbone oak, a table, books, an armchair, a plant.
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bookcase.h"
-#include "cloth.h"
-#include "foliage.h"
-#include "furniture.h"
-#include "masonry.h"
-#include "painting.h"
-#include "random.h"
-#include "room.h"
-#include "scenes.h"
-#include "shapes.h"
-#include "tableware.h"
-#include "wood.h"
+#include "kit/bookcase.h"
+#include "kit/cloth.h"
+#include "kit/foliage.h"
+#include "kit/furniture.h"
+#include "kit/masonry.h"
+#include "kit/painting.h"
+#include "kit/random.h"
+#include "kit/room.h"
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/tableware.h"
+#include "kit/wood.h"
 
 namespace lodestir::generate {
 
@@ -149,7 +149,7 @@ void addWallsAndPlants(Glb& glb, const Palette& palette, const Room& room) {
     glb.addNode(rubberFig("sill_plant", 23, 0.30f, 22, green), {.translation = sill + glm::vec3(0, 0.11f, 0)});
 }
 
-void writeInterior(const std::filesystem::path& folder) {
+Glb makeInterior() {
     Glb glb;
     const Room room;
     const glm::vec2 rugSize(2.3f, 1.6f);
@@ -159,11 +159,11 @@ void writeInterior(const std::filesystem::path& folder) {
     addDining(glb, palette, room, {-1.02f, 0, -0.42f});
     addReading(glb, palette, rugSize);
     addWallsAndPlants(glb, palette, room);
-    glb.write(folder / "interior.glb");
+    return glb;
 }
 
 }  // namespace
 
-LODESTIR_SCENE(interior, writeInterior)
+LODESTIR_SCENE(makeInterior)
 
 }  // namespace lodestir::generate

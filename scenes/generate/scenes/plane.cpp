@@ -7,12 +7,12 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "backdrop.h"
-#include "glb.h"
-#include "noise.h"
-#include "scenes.h"
-#include "shapes.h"
-#include "wood.h"
+#include "kit/backdrop.h"
+#include "kit/glb.h"
+#include "kit/noise.h"
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/wood.h"
 
 namespace lodestir::generate {
 
@@ -185,7 +185,7 @@ Surface livery(const glm::vec2& p, const Noise& noise) {
     return s;
 }
 
-void writePlane(const std::filesystem::path& folder) {
+Glb makePlane() {
     Glb glb;
     Mesh half = fuselage();
     append(half, wing({1.25f, 0.62f, 0.34f, 0.14f, 0.10f, 0.16f, {0, -0.09f, 0.22f}}, wingChart, 72, 64));
@@ -222,13 +222,14 @@ void writePlane(const std::filesystem::path& folder) {
     propeller.add(blades, placed(blade, glm::rotate(glm::mat4(1), 0.5f, {0, 0, 1})));
     glb.addNode(propeller, parked);
 
-    addTable(glb, {.size = {6.4f, 0.1f, 4.6f}, .edge = 0.02f, .centre = {0, -0.05f, -0.2f}, .grain = 0.45f, .material = "walnut", .wood = walnut(), .seed = 21});
+    addTable(glb,
+             {.size = {6.4f, 0.1f, 4.6f}, .edge = 0.02f, .centre = {0, -0.05f, -0.2f}, .grain = 0.45f, .material = "walnut", .wood = walnut(), .seed = 21});
     addWall(glb, {.name = "plaster", .color = {0.42f, 0.46f, 0.50f}, .roughness = 0.95f}, {-9, 6, -3.2f}, {18, 0, 0}, {0, -9, 0});
-    glb.write(folder / "plane.glb");
+    return glb;
 }
 
 }  // namespace
 
-LODESTIR_SCENE(plane, writePlane)
+LODESTIR_SCENE(makePlane, "--levels 4 --ratio 4 --mesh plane")
 
 }  // namespace lodestir::generate

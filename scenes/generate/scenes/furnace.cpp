@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // A furnace: a closed room and things in it that all reflect one half and glow with radiance 1. Every path of n scatterings or fewer then
 // brings the sum of 2^-i over i = 0..n, whatever it meets. Facets are flat: shading normals would lose light at their edges.
-#include "scenes.h"
-#include "shapes.h"
-#include "still_life.h"
+#include <utility>
+
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/still_life.h"
 
 namespace lodestir::generate {
 
 namespace {
 
-void writeFurnace(const std::filesystem::path& folder) {
+Glb makeFurnace() {
     Composition c;
     Material clay = matt("clay", glm::vec3(0.5f));
     clay.emission = glm::vec3(1);
@@ -20,11 +22,11 @@ void writeFurnace(const std::filesystem::path& folder) {
     c.put("gem", all, gem(8), {.translation = {-0.55f, 0.75f, 0.1f}, .scale = glm::vec3(0.5f)});
     c.put("block", all, plainBox({0.6f, 0.9f, 0.5f}), {.translation = {0.6f, 0.6f, -0.2f}, .rotation = turnY(25)});
     c.put("ball", all, faceted(sphere(12, 8)), {.translation = {0.62f, 1.4f, -0.1f}, .scale = {0.22f, 0.3f, 0.22f}});
-    c.glb.write(folder / "furnace.glb");
+    return std::move(c.glb);
 }
 
 }  // namespace
 
-LODESTIR_SCENE(furnace, writeFurnace)
+LODESTIR_SCENE(makeFurnace)
 
 }  // namespace lodestir::generate

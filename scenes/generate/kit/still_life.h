@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pieces of small still lifes with few triangles: a closed chamber, glowing panels, turned vessels, cut gems.
+// Still lifes to judge bias by, and their pieces: a closed chamber, glowing panels, turned vessels, cut gems. Each stresses one mechanism of
+// path reuse, has few triangles, is cheap to trace and converges fast, for all its lamps are broad. Metres.
 #pragma once
 
 #include <span>

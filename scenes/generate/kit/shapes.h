@@ -46,6 +46,9 @@ struct Station {
 /// Sweeps a circle along stations and closes both ends. u around, v along, in metres.
 Mesh tube(std::span<const Station> stations, int sides, float creaseDegrees = 50);
 
+/// A straight tube.
+Mesh bar(const glm::vec3& from, const glm::vec3& to, float radius, int sides = 6);
+
 /// A smooth curve through control points (uniform Catmull-Rom), `steps` points per span.
 std::vector<glm::vec2> smoothCurve(std::span<const glm::vec2> points, int steps);
 

@@ -2,12 +2,12 @@
 // A glazed block whose six faces wear one chart: a point of the picture is six points of the block, which only their places tell apart.
 #include <cmath>
 
-#include "backdrop.h"
-#include "glb.h"
-#include "noise.h"
-#include "scenes.h"
-#include "shapes.h"
-#include "wood.h"
+#include "kit/backdrop.h"
+#include "kit/glb.h"
+#include "kit/noise.h"
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/wood.h"
 
 namespace lodestir::generate {
 
@@ -57,7 +57,7 @@ Mesh face(const glm::mat3& turn) {
     return mesh;
 }
 
-void writeCube(const std::filesystem::path& folder) {
+Glb makeCube() {
     Glb glb;
     const Noise noise{31};
     const Textures glaze = paint({.width = 1024, .height = 1024, .repeats = false, .smooth = true}, [&](const glm::vec2& m) {
@@ -88,11 +88,11 @@ void writeCube(const std::filesystem::path& folder) {
 
     addTable(glb, {.size = {3.6f, 0.08f, 2.4f}, .edge = 0.02f, .centre = {0, -0.04f, -0.1f}, .grain = 0.6f, .material = "oak", .wood = oak(), .seed = 9});
     addWall(glb, {.name = "plaster", .color = {0.52f, 0.48f, 0.43f}, .roughness = 0.95f}, {-6, 4, -1.6f}, {12, 0, 0}, {0, -6, 0});
-    glb.write(folder / "cube.glb");
+    return glb;
 }
 
 }  // namespace
 
-LODESTIR_SCENE(cube, writeCube)
+LODESTIR_SCENE(makeCube, "--levels 4 --ratio 4 --mesh cube")
 
 }  // namespace lodestir::generate

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "glb.h"
-#include "grass.h"
-#include "random.h"
-#include "scenes.h"
-#include "stone.h"
-#include "terrain.h"
+#include "kit/glb.h"
+#include "kit/grass.h"
+#include "kit/random.h"
+#include "kit/scene.h"
+#include "kit/stone.h"
+#include "kit/terrain.h"
 
 namespace lodestir::generate {
 
@@ -126,7 +126,7 @@ void addPlants(Glb& glb, const Terrain& terrain) {
     scatter("shrub", shrubs, {90, 11, 90, 0.8f, 0.8f, 2.2f, false}, 79);
 }
 
-void writeRock(const std::filesystem::path& folder) {
+Glb makeRock() {
     Glb glb;
     const Stone stone(20, {.size = {1.62f, 1.32f, 1.36f}, .facets = 15, .sharpness = 24, .relief = 1});
     const Mesh mesh = stone.mesh(rockCells);
@@ -140,11 +140,11 @@ void writeRock(const std::filesystem::path& folder) {
     Model ground{"terrain", {}};
     ground.add(glb.addMaterial(glb.dressed({.name = "ground"}, paintGround(3, 1024))), terrain.mesh(256));
     glb.addNode(ground);
-    glb.write(folder / "rock.glb");
+    return glb;
 }
 
 }  // namespace
 
-LODESTIR_SCENE(rock, writeRock)
+LODESTIR_SCENE(makeRock, "--levels 4 --ratio 4 --mesh rock")
 
 }  // namespace lodestir::generate

@@ -174,6 +174,11 @@ Mesh tube(std::span<const Station> stations, int sides, float creaseDegrees) {
     return mesh;
 }
 
+Mesh bar(const glm::vec3& from, const glm::vec3& to, float radius, int sides) {
+    const Station stations[] = {{from, radius}, {to, radius}};
+    return tube(stations, sides);
+}
+
 std::vector<glm::vec2> smoothCurve(std::span<const glm::vec2> points, int steps) {
     std::vector<glm::vec2> curve;
     const auto at = [&](int i) { return points[size_t(std::clamp(i, 0, int(points.size()) - 1))]; };

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <vector>
 
-#include "glb.h"
-#include "masonry.h"
-#include "noise.h"
-#include "random.h"
-#include "scenes.h"
-#include "shapes.h"
-#include "wood.h"
+#include "kit/glb.h"
+#include "kit/masonry.h"
+#include "kit/metals.h"
+#include "kit/noise.h"
+#include "kit/random.h"
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/wood.h"
 
 namespace lodestir::generate {
 
@@ -24,9 +25,6 @@ constexpr float frontRow = 1.0f, backRow = -0.45f;
 
 // The ring below each sphere: its tube touches the sphere where the radii add up.
 constexpr float ringRadius = 0.27f, ringTube = 0.045f;
-
-/// Linear Rec.709 reflectance at normal incidence.
-constexpr glm::vec3 gold{1.0f, 0.77f, 0.34f}, copper{0.95f, 0.64f, 0.54f}, steel{0.56f, 0.57f, 0.58f};
 
 /// Floor sweeping up into a wall, open towards the camera.
 Mesh backdrop() {
@@ -198,7 +196,7 @@ void addSpheres(Glb& glb) {
     row.put("glow", glb.addMesh("glow", {{glb.addGeometry(sphere(64, 32)), glow}}), 8, false);
 }
 
-void writeMaterialSpheres(const std::filesystem::path& folder) {
+Glb makeMaterialSpheres() {
     Glb glb;
 
     Model sweep{"backdrop", {}};
@@ -230,11 +228,11 @@ void writeMaterialSpheres(const std::filesystem::path& folder) {
     glb.addNode(softBox("top", {1.5f, 7.4f, 1.2f}, centre, {6, 2}, lamp("top", {3.4f, 3.3f, 3.2f}), tray));
     // Low behind the bench, out of sight: a glow on the backdrop that lifts the spheres off it.
     glb.addNode(softBox("background", {0, 0.5f, -1.9f}, {0, 3.0f, -4.5f}, {8.5f, 0.6f}, lamp("background", {5.0f, 6.0f, 7.6f}), tray));
-    glb.write(folder / "material_spheres.glb");
+    return glb;
 }
 
 }  // namespace
 
-LODESTIR_SCENE(material_spheres, writeMaterialSpheres)
+LODESTIR_SCENE(makeMaterialSpheres)
 
 }  // namespace lodestir::generate

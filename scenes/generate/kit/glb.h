@@ -89,6 +89,7 @@ struct Model {
 class Glb {
 public:
     Glb();
+    Glb(Glb&& other) noexcept;
     ~Glb();
 
     int addPicture(const std::string& name, const Picture& picture);

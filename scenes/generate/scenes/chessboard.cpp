@@ -3,14 +3,14 @@
 #include <cmath>
 #include <string>
 
-#include "backdrop.h"
-#include "chess_pieces.h"
-#include "glb.h"
-#include "noise.h"
-#include "random.h"
-#include "scenes.h"
-#include "shapes.h"
-#include "wood.h"
+#include "kit/backdrop.h"
+#include "kit/chess_pieces.h"
+#include "kit/glb.h"
+#include "kit/noise.h"
+#include "kit/random.h"
+#include "kit/scene.h"
+#include "kit/shapes.h"
+#include "kit/wood.h"
 
 namespace lodestir::generate {
 
@@ -49,7 +49,7 @@ Textures paintField(const Wood& light, const Wood& dark) {
     });
 }
 
-void writeChessboard(const std::filesystem::path& folder) {
+Glb makeChessboard() {
     Glb glb;
     const Wood boxwood{.early = {0.66f, 0.47f, 0.25f}, .late = {0.50f, 0.31f, 0.13f}, .roughness = 0.20f};
     const Wood ebony{.early = {0.030f, 0.020f, 0.014f}, .late = {0.012f, 0.008f, 0.006f}, .roughness = 0.16f};
@@ -101,11 +101,11 @@ void writeChessboard(const std::filesystem::path& folder) {
     Model shade{"lamp", {}};
     shade.add(lamp, placed(rectangle({0, 0, 0}, {2.5f, 0, 0}, {0, 0, -5}), glm::vec3(6, 9, 1)));
     glb.addNode(shade);
-    glb.write(folder / "chessboard.glb");
+    return glb;
 }
 
 }  // namespace
 
-LODESTIR_SCENE(chessboard, writeChessboard)
+LODESTIR_SCENE(makeChessboard, "--levels 3 --ratio 4")
 
 }  // namespace lodestir::generate

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+// For passes that read the scene on the CPU: as it was loaded, which levels its own policy shows, and how it lies on the device.
+#pragma once
+#include <framework/scene/level_policy.h>
+#include <framework/scene/records.h>
+#include <framework/scene/scene.h>

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The layout of a scene's meshes on the device, as the CPU sees it.
+#pragma once
+#include <framework/shaders/world/world.h>
+
+#include <span>
+
+namespace lodestir {
+
+/// What some arrays of every World hold, by the same names: where the triangles of a level lie, in which order, and their texture coordinates.
+/// Only normals and tangents follow the pose.
+struct SceneRecords {
+    std::span<const LevelRecord> meshLevels;  ///< of mesh m at level l: m * LEVELS + l
+    std::span<const PrimitiveRecord> primitives;
+    std::span<const VertexRecord> vertices;
+};
+
+}  // namespace lodestir
