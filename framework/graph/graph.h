@@ -23,6 +23,7 @@ struct Source {
 struct GraphNode {
     std::string name, type;
     const Plugin* plugin = nullptr;
+    Hash code;  ///< PluginLibraries::codeOf
     std::unique_ptr<Pass> pass;
     std::vector<std::optional<Source>> inputs;  ///< for each of pass->ports; empty for what is no input, and for inputs left unwired
     bool off = false;                           ///< never runs: consumers are already rewired through its bypasses
