@@ -14,7 +14,7 @@ struct Path {
 World scene = world();
 
 #if HAS_hits && HAS_worldPrev
-bool switchesLevels() { return historyValid() && scene.levels.at[scene.instanceCount] != 0; }
+bool switchesLevels() { return historyValid() && scene.levelsChanged.at[0] != 0; }
 bool switched(PrimaryHit h) { return h.primitive != NONE && scene.levels.at[h.instance] != worldPrev().levels.at[h.instance]; }
 uint mostTrees() { return max(uint(params.candidates), uint(params.switchCandidates)); }
 #else
