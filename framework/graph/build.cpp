@@ -116,10 +116,6 @@ private:
     }
 
     void addScene() {
-        if (!libraries_.hasBuiltIn(sceneName)) {
-            problems_.add(Where{graph_.description.file.string()}, "the graph needs a scene, and this program has no pass \"scene\"");
-            return;
-        }
         GraphNode node;
         makeNode(sceneName, sceneName, {}, {}, node);
         node.implied = true;

@@ -2,6 +2,8 @@
 // Loads pass libraries with dlopen and looks up their passes. LODESTIR_ABI is given by the build.
 #include <framework/graph/plugins.h>
 
+#include <framework/graph/scene_node.h>
+
 #include <fmt/format.h>
 #include <lodestir/sources.h>
 
@@ -45,6 +47,7 @@ std::string_view frameworkAbi() { return LODESTIR_ABI; }
 std::string_view frameworkSources() { return LODESTIR_SOURCES; }
 
 PluginLibraries::PluginLibraries(std::vector<Path> extraFolders) {
+    addBuiltIn("scene", scenePlugin());
     folders_.push_back(passFolder());
     for (Path& folder : extraFolders) {
         std::error_code none;

@@ -17,11 +17,11 @@ namespace lodestir {
 /// process ends.
 class LODESTIR_API PluginLibraries {
 public:
+    /// Knows the built-in pass "scene".
     explicit PluginLibraries(std::vector<Path> extraFolders = {});
 
     /// A pass that is part of the framework (or of a test); hides a folder of the same name.
     void addBuiltIn(const std::string& type, const Plugin& plugin);
-    bool hasBuiltIn(const std::string& type) const { return builtIns_.contains(type); }
     /// The plugin of a type, loading its library. Error at `where`: no such folder or struct (with a guess), not loadable, or built
     /// against another framework.
     const Plugin& find(const std::string& type, const Where& where = {});

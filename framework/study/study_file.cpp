@@ -269,7 +269,7 @@ private:
                 const auto& [name, values] = member;
                 if (values.items(fmt::format("\"{}\"", name)).empty())
                     throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
-                if (std::ranges::find(technique.graph.set, name, &StudySetting::name) != technique.graph.set.end())
+                if (std::ranges::find(technique.graph.set, name, &Setting::name) != technique.graph.set.end())
                     throw Error(values.keyWhere(), fmt::format("\"{}\" is set and varied", name), "remove one of them");
                 Knob knob{.name = name};
                 for (const Json& item : values.items()) {

@@ -5,7 +5,6 @@
 #include <framework/app/session.h>
 #include <framework/graph/plan.h>
 #include <framework/graph/plugins.h>
-#include <framework/graph/scene_node.h>
 #include <framework/scene/level_policy.h>
 
 #include <fmt/format.h>
@@ -45,8 +44,7 @@ std::string levelPolicy(const Graph& graph) {
 }
 
 int check(const Options& options) {
-    PluginLibraries libraries(options.session.passes);
-    libraries.addBuiltIn("scene", scenePlugin());
+    PluginLibraries libraries(options.session.renderer.passes);
     Problems problems;
     const Graph graph = buildGraph(loadDescription(options.session.graph, options.session.changes), libraries);
     std::vector<Source> pinned;

@@ -5,7 +5,6 @@
 #include <framework/core/log.h>
 #include <framework/graph/header.h>
 #include <framework/graph/plugins.h>
-#include <framework/graph/scene_node.h>
 #include <framework/graph/schema.h>
 
 #include <fmt/format.h>
@@ -40,7 +39,6 @@ std::vector<PassType> describeAll(PluginLibraries& libraries, const std::string&
 
 int listPasses(const Options& options) {
     PluginLibraries libraries(options.folders);
-    libraries.addBuiltIn("scene", scenePlugin());
     Problems problems;
     const std::vector<PassType> types = describeAll(libraries, options.name, problems);
     if (options.schema) {

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
-// Where objects are seen that take another level: the mask "switched" of studies.
+// What a study sees of a scene besides radiance: which object a pixel shows, how it moves, and whether it takes another level.
 #pragma once
-#include <framework/graph/runner.h>
-#include <framework/scene/scene.h>
+#include <framework/graph/renderer.h>
+#include <framework/image/image.h>
+#include <framework/shaders/world/primary_hit.h>
 #include <framework/study/study_file.h>
 
+#include <cstdint>
 #include <vector>
 
 namespace lodestir {
 
-/// What the frames of a study are rendered from and on.
-struct MaskStage {
-    const Study& study;
-    const StudyScene& file;
-    const Scene& scene;
-    PluginLibraries& libraries;
-    const gpu::Device& device;
-    RayBody rays;
+struct Seen {
+    std::vector<std::vector<PrimaryHit>> hits;  ///< of each measured frame, at the centre of each pixel
+    std::vector<ImageData> motions;             ///< likewise, from where a point is seen to where the frame before showed it, in pixels; two channels
+    std::vector<std::uint32_t> changed;         ///< of each object, the number of the frame after the one in which its level last changed; 0: never
 };
 
-/// Of each measured frame, the pixels whose centres see an object that takes another level at the event or later, up to the last
-/// measured frame, by the scene's own policy. Error when there is none.
-std::vector<std::vector<bool>> switchedMasks(const MaskStage& stage);
+/// Renders the frames of a study by graphs/framework/seen.json, levels by the scene's own policy.
+Seen seeFrames(Renderer& renderer, const Study& study, const StudyScene& file, const Scene& scene);
+
+/// Of each measured frame, the pixels whose centres see an object that takes another level at the event or later, up to the last measured frame: the
+/// mask "switched". Error when there is none.
+std::vector<std::vector<bool>> switchedMasks(const Seen& seen, const Study& study, const StudyScene& file);
 
 }  // namespace lodestir
