@@ -144,6 +144,7 @@ std::string Stage::nameOf(const StudyRun& run) {
     Hash hash;
     hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
     hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
+    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_, study_.scenes[run.scene])));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");

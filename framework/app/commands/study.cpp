@@ -40,11 +40,10 @@ struct SceneReferences {
 
 SceneReferences makeReferences(Stage& stage, const Study& study, std::size_t scene, const Path& folder) {
     SceneReferences references{.scene = scene};
-    const bool temporal = std::ranges::any_of(study.metrics, isTemporal);
-    if (study.maskSwitched || temporal) {
+    if (needsSeen(study)) {
         Seen seen = stage.see(scene);
         if (study.maskSwitched) references.masks = switchedMasks(seen, study, study.scenes[scene]);
-        if (temporal) references.motions = std::move(seen.motions);
+        references.motions = std::move(seen.motions);
     }
     for (const int offset : study.measure) {
         references.frames.push_back(stage.reference(scene, offset, folder));

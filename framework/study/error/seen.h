@@ -17,7 +17,11 @@ struct Seen {
     std::vector<std::uint32_t> changed;         ///< of each object, the number of the frame after the one in which its level last changed; 0: never
 };
 
-/// Renders the frames of a study by graphs/framework/seen.json, levels by the scene's own policy.
+/// Does what a study measures depend on any of it?
+bool needsSeen(const Study& study);
+/// The graph that it is seen by: graphs/framework/seen.json, with levels by the scene's own policy.
+Graph seenGraph(Renderer& renderer, const Study& study, const StudyScene& file);
+/// Renders the frames of a study by that graph.
 Seen seeFrames(Renderer& renderer, const Study& study, const StudyScene& file, const Scene& scene);
 
 /// Of each measured frame, the pixels whose centres see an object that takes another level at the event or later, up to the last measured frame: the
