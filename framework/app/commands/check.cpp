@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `lodestir check`: validates a graph with all its variants and prints its plan. No GPU.
-#include <framework/app/commands/check.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/app/session.h>
 #include <framework/graph/plan.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lodestir compare TEST REFERENCE: error metrics of two images.
-#include <framework/app/commands/compare.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/app/metric_option.h>
 #include <framework/app/validators.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `lodestir passes`: what passes exist and what each declares, for people, programs, editors and the docs.
-#include <framework/app/commands/passes.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/core/log.h>
 #include <framework/graph/header.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/app/commands/study.h>
+// lodestir study STUDY: runs a study and reports on it.
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/command_line.h>
 #include <framework/app/interrupt.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/app/commands/view.h>
+// `lodestir view`: renders a graph into a window, with panels made from its declarations.
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/view/canvas.h>
 #include <framework/app/command_line.h>
