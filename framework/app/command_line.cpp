@@ -87,6 +87,7 @@ template <class T> CommandOption Command::taken(const std::string& name, const s
 template CommandOption Command::taken(const std::string&, const std::function<void(const std::string&)>&, const std::string&);
 template CommandOption Command::taken(const std::string&, const std::function<void(const int&)>&, const std::string&);
 template CommandOption Command::taken(const std::string&, const std::function<void(const std::uint32_t&)>&, const std::string&);
+template CommandOption Command::taken(const std::string&, const std::function<void(const std::vector<std::string>&)>&, const std::string&);
 
 CommandOption Command::flag(const std::string& name, bool& value, const std::string& about) {
     return CommandOption(app_->add_flag(name, value, about));

@@ -4,8 +4,7 @@
 #include <framework/core/child.h>
 #include <framework/core/log.h>
 #include <framework/gpu/commands.h>
-#include <framework/graph/runner.h>
-#include <framework/graph/scene_node.h>
+#include <framework/graph/renderer.h>
 #include <framework/scene/scene.h>
 
 #include <fmt/format.h>
@@ -69,30 +68,27 @@ Facts addNumbers(const DeviceTestOptions& options) {
 
 /// Inside of a room that reflects one half and glows with radiance 1 everywhere, four scatterings bring 1 + 1/2 + 1/4 + 1/8 + 1/16.
 Facts traceFrame(const DeviceTestOptions& options) {
-    const char* const graphText = R"({ "format": 1, "scene": "furnace.glb", "frame": { "size": [64, 64] },
-                                       "passes": { "trace": { "type": "path_tracer", "set": { "bounces": 4 } } }, "show": "trace" })";
     constexpr double expected = 1.9375;
-    const gpu::Device device({.choice = options.device});
-    PluginLibraries libraries;
-    libraries.addBuiltIn("scene", scenePlugin());
-    Graph graph = buildGraph(readDescription(Json::parse(graphText, "devices --test"), sceneFolder() / "devices --test"), libraries);
+    Renderer renderer({.device = options.device, .rays = options.rays});
+    Graph graph = renderer.build(graphFolder() / "path_tracer.json",
+                                 {.scene = sceneFolder() / "furnace.glb", .size = glm::uvec2(64), .set = {{"trace.bounces", Json(4)}}, .show = "trace"});
     Scene scene = loadScene(graph.description.scene);
     scene.camera.keys = {{.position = {0, 1, 2.5}, .target = {0, 0.9, -0.3}}};
-    Runner runner(device, graph, scene, {.rays = chooseRayBody(device.facts(), options.rays), .pinned = {}});
-    runner.run();  // compiles
+    const std::unique_ptr<Runner> runner = renderer.bringUp(graph, scene);
+    runner->run();  // compiles the rest
     double compile = 0, milliseconds = HUGE_VAL;
-    for (const ShaderReport& shader : runner.shaders()) compile += shader.compileMilliseconds + shader.driverMilliseconds;
+    for (const ShaderReport& shader : runner->shaders()) compile += shader.compileMilliseconds + shader.driverMilliseconds;
     for (int i = 0; i < 5; ++i) {
         const Stopwatch running;
-        runner.run();
+        runner->run();
         milliseconds = std::min(milliseconds, running.milliseconds());
     }
-    const ImageData image = firstChannels(runner.readImage(graph.show), 3);  // the fourth is no light
+    const ImageData image = firstChannels(runner->readImage(graph.show), 3);  // the fourth is no light
     double mean = 0;
     for (std::size_t i = 0; i < image.values.size(); ++i) mean += image.values[i] / double(image.values.size());
     if (!(std::abs(mean - expected) < 0.05 * expected)) throw Error(fmt::format("the image's mean is {:.4g} instead of {}", mean, expected));
-    requireSilence(device);
-    return {device.facts().name, compile, milliseconds};
+    requireSilence(renderer.device());
+    return {renderer.device().facts().name, compile, milliseconds};
 }
 
 struct Task {

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/program.h>
 
-#include <framework/app/commands/check.h>
 #include <framework/app/command_line.h>
-#include <framework/app/commands/compare.h>
-#include <framework/app/commands/devices.h>
-#include <framework/app/commands/lod.h>
-#include <framework/app/commands/passes.h>
-#include <framework/app/commands/run.h>
-#include <framework/app/commands/scene.h>
-#include <framework/app/commands/study.h>
-#include <framework/app/commands/view.h>
+#include <framework/app/commands/commands.h>
 #include <framework/core/error.h>
 
 #include <CLI/CLI.hpp>
@@ -30,15 +22,7 @@ int runProgram(int argc, char** argv) {
     app.require_subcommand(1);
     app.failure_message(CLI::FailureMessage::simple);
     std::function<int()> run;
-    addRun(app, run);
-    addView(app, run);
-    addCompare(app, run);
-    addPasses(app, run);
-    addCheck(app, run);
-    addScene(app, run);
-    addDevices(app, run);
-    addLod(app, run);
-    addStudy(app, run);
+    for (AddCommand* add : allCommands) add(app, run);
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
     if (argc > 1 && argv[1][0] != '-' && std::ranges::find(names, std::string_view(argv[1])) == names.end()) {

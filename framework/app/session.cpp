@@ -4,7 +4,6 @@
 #include <framework/app/command_line.h>
 #include <framework/app/validators.h>
 #include <framework/core/log.h>
-#include <framework/graph/scene_node.h>
 
 #include <charconv>
 #include <chrono>
@@ -23,40 +22,43 @@ glm::uvec2 readSize(const std::string& option, const std::string& text) {
     refuseOption(option, "\"" + text + "\" is no size; write it like 960x540");
 }
 
+void addRendererOptions(Command& command, RendererOptions& options) {
+    command.option("--passes", options.passes, "another folder of pass libraries").repeatable();
+    command.option("--device", options.device, "name or index, see `lodestir devices`").check(checkNotEmpty);
+    command.option("--rays", options.rays, "how rays are traced: packet, lane or ray_query").check(checkNotEmpty);
+}
+
+namespace {
+
+Setting readSetOption(const std::string& text) {
+    try {
+        return readSetting(text);
+    } catch (const Error& error) {
+        const Problem& problem = error.problems().front();
+        refuseOption(problem.where.file, problem.what + "; " + problem.hint);
+    }
+}
+
+}  // namespace
+
 void SessionOptions::addTo(Command& command) {
     command.option("graph", graph, "graph file").required();
     command.taken<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's").check(checkNotEmpty);
     command.taken<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames").within(1, std::numeric_limits<int>::max());
     command.taken<std::string>("--size", [this](const std::string& v) { changes.size = readSize("--size", v); }, "of the frame, WIDTHxHEIGHT");
     command.taken<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers").check(checkNotEmpty);
-    command.option("--set", changes.set, "pass.parameter=value").repeatable();
+    command.taken<std::vector<std::string>>("--set", [this](const auto& texts) { for (const std::string& text : texts) changes.set.push_back(readSetOption(text)); }, "pass.parameter=value").repeatable();
     command.taken<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
     command.taken<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
     command.option("--dump", dumps, "pass.port to write as well").repeatable();
-    command.option("--passes", passes, "another folder of pass libraries").repeatable();
-    command.option("--device", device, "name or index, see `lodestir devices`").check(checkNotEmpty);
-    command.option("--rays", rays, "how rays are traced: packet, lane or ray_query").check(checkNotEmpty);
+    addRendererOptions(command, renderer);
     command.flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
     command.flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
     command.flag("--count-steps", countSteps, "count the nodes that rays visit");
 }
 
-namespace {
-
-void prepareWithProgress(Runner& runner) {
-    std::optional<log::Progress> progress;
-    runner.prepare([&](std::size_t done, std::size_t all) {
-        if (!progress) progress.emplace("compiling shaders, which the driver keeps for the next start", all);
-        if (done > 0) progress->advance();
-    });
-}
-
-}  // namespace
-
-Session::Session(const SessionOptions& options, SessionParts parts)
-    : device_(std::move(parts.device)), libraries_(options.passes), scene_(std::move(parts.scene)) {
-    libraries_.addBuiltIn("scene", scenePlugin());
-    graph_ = std::make_unique<Graph>(buildGraph(loadDescription(options.graph, options.changes), libraries_));
+Session::Session(const SessionOptions& options, SessionParts parts) : renderer_(options.renderer, parts.device), scene_(std::move(parts.scene)) {
+    graph_ = std::make_unique<Graph>(renderer_.build(options.graph, options.changes));
     if (parts.adjust) parts.adjust(*graph_);
     for (const std::string& name : options.dumps) dumps_.push_back(findSource(*graph_, name, {"--dump", 0, 0}));
     if (graph_->description.scene.empty()) throw Error({graph_->description.file.string(), 0, 0}, "the graph names no scene", "add \"scene\" or give --scene");
@@ -66,14 +68,16 @@ Session::Session(const SessionOptions& options, SessionParts parts)
         for (const std::string& note : scene_->notes) log::note("{}", note);
         sceneMilliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     }
-    const bool isNew = !device_;
-    if (isNew) device_ = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = options.device});
-    rays_ = chooseRayBody(device_->facts(), options.rays);
-    if (isNew) log::note("device {}, {}; rays by {}", device_->facts().name, device_->reason(), options.rays.empty() ? whyRayBody(device_->facts()) : options.rays + ", as asked for");
-    runner_ = std::make_unique<Runner>(*device_, *graph_, *scene_,
-                                       RunnerOptions{.rays = rays_, .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice});
-    if (parts.compiled) runner_->prepare(parts.compiled);
-    else prepareWithProgress(*runner_);
+    if (!parts.device) {
+        const std::string why = options.renderer.rays.empty() ? whyRayBody(device().facts()) : std::string(nameOf(rays())) + ", as asked for";
+        log::note("device {}, {}; rays by {}", device().facts().name, device().reason(), why);
+    }
+    const RunnerOptions how{.pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice};
+    std::optional<log::Progress> progress;
+    runner_ = renderer_.bringUp(*graph_, *scene_, how, parts.compiled ? parts.compiled : [&](std::size_t done, std::size_t all) {
+        if (!progress) progress.emplace("compiling shaders, which the driver keeps for the next start", all);
+        if (done > 0) progress->advance();
+    });
 }
 
 }  // namespace lodestir

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A graph brought to life: its passes loaded, its scene read, its runner on a device. What every command that renders starts from.
 #pragma once
-#include <framework/graph/runner.h>
+#include <framework/graph/renderer.h>
 #include <framework/scene/scene.h>
 
 #include <functional>
@@ -13,16 +13,17 @@ namespace lodestir {
 
 class Command;
 
+/// Adds the options of all that renders: --passes, --device, --rays.
+void addRendererOptions(Command& command, RendererOptions& options);
+
 /// "960x540", given to an option. Wrong use naming the option when it is none.
 glm::uvec2 readSize(const std::string& option, const std::string& text);
 
 struct SessionOptions {
     Path graph;
     GraphOptions changes;
-    std::vector<Path> passes;         ///< extra folders of pass libraries
-    std::vector<std::string> dumps;   ///< ports to be read after a frame
-    std::string device;               ///< name or index; empty: the best
-    std::string rays;                 ///< ray body; empty: the fastest
+    RendererOptions renderer;
+    std::vector<std::string> dumps;  ///< ports to be read after a frame
     bool checkBounds = false, allBarriers = false, countSteps = false;
 
     /// Adds the options that all rendering commands share.
@@ -43,22 +44,20 @@ class Session {
 public:
     explicit Session(const SessionOptions& options, SessionParts parts = {});
 
-    const gpu::Device& device() const { return *device_; }
+    const gpu::Device& device() { return renderer_.device(); }
     Graph& graph() { return *graph_; }
     const Scene& scene() const { return *scene_; }
     const std::shared_ptr<Scene>& sharedScene() const { return scene_; }
     Runner& runner() { return *runner_; }
     const std::vector<Source>& dumps() const { return dumps_; }
-    RayBody rays() const { return rays_; }
+    RayBody rays() { return renderer_.rays(); }
     double sceneMilliseconds() const { return sceneMilliseconds_; }  ///< to read the scene
 
 private:
-    std::shared_ptr<const gpu::Device> device_;  // first, because passes may hold its memory
-    PluginLibraries libraries_;
+    Renderer renderer_;  // first, because passes may hold its device's memory
     std::unique_ptr<Graph> graph_;
     std::vector<Source> dumps_;
     std::shared_ptr<Scene> scene_;
-    RayBody rays_ = RayBody::lane;
     std::unique_ptr<Runner> runner_;
     double sceneMilliseconds_ = 0;
 };

@@ -38,10 +38,11 @@ struct LODESTIR_API Hash {
 
 /// The folder for things made once and kept by content: $LODESTIR_CACHE, else $XDG_CACHE_HOME/lodestir, else ~/.cache/lodestir, else a folder in /tmp.
 LODESTIR_API Path cacheFolder(std::string_view kind);
-/// Where the running library's shaders, passes and scenes lie: the build and source trees when run from the build, else the install prefix.
+/// Where the running library's shaders, passes, scenes and graphs lie: the build and source trees when run from the build, else the install prefix.
 LODESTIR_API Path shaderFolder();
 LODESTIR_API Path passFolder();
 LODESTIR_API Path familyFolder();  ///< the families of passes as sources: headers and shaders that passes share
 LODESTIR_API Path sceneFolder();  ///< generated models
+LODESTIR_API Path graphFolder();  ///< named configurations, and what the framework runs itself
 
 }  // namespace lodestir

@@ -78,6 +78,11 @@ Path sceneFolder() {
     return runsFromBuild() && isFolder(build) ? build : shared("scenes");
 }
 
+Path graphFolder() {
+    const Path source = Path(LODESTIR_SOURCE_DIR) / "graphs";
+    return runsFromBuild() && isFolder(source) ? source : shared("graphs");
+}
+
 Path cacheFolder(std::string_view kind) {
     if (const Path chosen = environment("LODESTIR_CACHE"); !chosen.empty()) {
         const Path folder = chosen / kind;

@@ -63,6 +63,7 @@ private:
         node.where = where;
         attempt([&] {
             node.plugin = &libraries_.find(type, typeWhere);
+            node.code = libraries_.codeOf(type, typeWhere);
             node.pass.reset(node.plugin->create());
             node.pass->shader = node.plugin->shader;
             node.inputs.resize(node.pass->ports.size());
@@ -115,10 +116,6 @@ private:
     }
 
     void addScene() {
-        if (!libraries_.hasBuiltIn(sceneName)) {
-            problems_.add(Where{graph_.description.file.string()}, "the graph needs a scene, and this program has no pass \"scene\"");
-            return;
-        }
         GraphNode node;
         makeNode(sceneName, sceneName, {}, {}, node);
         node.implied = true;

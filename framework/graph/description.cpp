@@ -78,27 +78,27 @@ void applyVariant(Json& source, const std::string& name, const Path& file) {
     source.merge(Json(*patch));
 }
 
-void applyAssignment(Json& source, const std::string& text) {
-    Assignment assignment = readAssignment(text);
-    const Where where{"--set " + text};
-    if (assignment.node == "frame") {
-        source["frame"][assignment.name] =
-            assignment.name == "size" ? readSizeText(std::move(assignment.value)) : std::move(assignment.value);
+void applySetting(Json& source, const Setting& setting) {
+    const std::size_t dot = setting.name.find('.');
+    const std::string node = setting.name.substr(0, dot), name = setting.name.substr(dot + 1);
+    Json value = setting.value;
+    value.moveTo(value.where());  // its name, too, which may stand nowhere
+    if (node == "frame") {
+        source["frame"][name] = std::move(value);
         return;
     }
     // The pass "scene" is there without being named; what is set on it names it. First, as it would be implied.
     const Json* passes = source.find("passes");
-    if (assignment.node == "scene" && passes && passes->isObject() && !passes->find("scene")) {
+    if (node == "scene" && passes && passes->isObject() && !passes->find("scene")) {
         Json withScene = Json::object();
         withScene["scene"]["type"] = "scene";
-        for (const auto& [name, pass] : passes->members()) withScene[name] = pass;
+        for (const auto& [other, pass] : passes->members()) withScene[other] = pass;
         source["passes"] = std::move(withScene);
         passes = source.find("passes");
     }
-    if (!passes || !passes->find(assignment.node) || !passes->find(assignment.node)->isObject()) {
-        throw Error(where, "no pass \"" + assignment.node + "\"", didYouMean(assignment.node, keysOf(passes)));
-    }
-    source["passes"][assignment.node]["set"][assignment.name] = std::move(assignment.value);
+    if (!passes || !passes->find(node) || !passes->find(node)->isObject())
+        throw Error(value.where(), "no pass \"" + node + "\"", didYouMean(node, keysOf(passes)));
+    source["passes"][node]["set"][name] = std::move(value);
 }
 
 void applyOptions(Json& source, const GraphOptions& options, Problems& problems) {
@@ -128,7 +128,7 @@ void applyOptions(Json& source, const GraphOptions& options, Problems& problems)
         size.push(std::int64_t(options.size->y));
         source["frame"]["size"] = place(std::move(size), "--size");
     });
-    for (const std::string& text : options.set) attempt([&] { applyAssignment(source, text); });
+    for (const Setting& setting : options.set) attempt([&] { applySetting(source, setting); });
 }
 
 /// Reads the members of the file one after the other; what is wrong is noted and the rest read on.
@@ -264,13 +264,15 @@ private:
 
 }  // namespace
 
-Assignment readAssignment(const std::string& text) {
+Setting readSetting(const std::string& text) {
     const Where where{"--set " + text};
     const std::size_t equals = text.find('='), dot = text.find('.');
     if (equals == text.npos || dot == text.npos || dot > equals || dot == 0 || dot + 1 == equals) {
         throw Error(where, "this sets nothing", "write pass.parameter=value");
     }
-    return {text.substr(0, dot), text.substr(dot + 1, equals - dot - 1), readLooseValue(text.substr(equals + 1), where)};
+    Setting setting{text.substr(0, equals), readLooseValue(text.substr(equals + 1), where)};
+    if (setting.name == "frame.size") setting.value = readSizeText(std::move(setting.value));
+    return setting;
 }
 
 Description readDescription(Json source, const Path& file, const GraphOptions& options) {
@@ -287,7 +289,6 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     if (options.variant) applyVariant(description.source, *options.variant, file);
     description.source.remove("variants");
     applyOptions(description.source, options, problems);
-    description.setFolder = options.setFolder;
     DescriptionReader(description, problems).read();
     problems.raise();
     return description;

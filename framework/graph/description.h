@@ -22,7 +22,7 @@ struct EdgeDescription {
     Where portWhere;  ///< of the key
 };
 
-/// One member of "set"; value.keyWhere() is the place of the name.
+/// A parameter of a pass ("bounces"), or of a pass of a graph ("trace.bounces"), and what it is set to; value.keyWhere() is the place of the name.
 struct Setting {
     std::string name;
     Json value;
@@ -50,7 +50,6 @@ struct Description {
     std::string showNode, showPort;      ///< showPort is empty where the file names the pass alone
     Where showWhere;
     std::vector<std::string> variants;  ///< names, in file order
-    Path setFolder;                     ///< GraphOptions::setFolder
     Json source;                        ///< the file after the variant's merge patch and all overrides, without "variants"
 };
 
@@ -60,8 +59,7 @@ struct GraphOptions {
     std::optional<int> frames;
     std::optional<glm::uvec2> size;
     std::optional<std::uint32_t> seed;
-    std::vector<std::string> set;  ///< "pass.param=value", "frame.seed=3", "frame.size=1280x720"; values are JSON, else text
-    Path setFolder;                ///< what files named by `set` are relative to; empty: the working folder
+    std::vector<Setting> set;   ///< "pass.parameter", "frame.seed", ...; what is wrong with one is said at the place of its value
     std::optional<std::string> variant;
     std::optional<std::string> show;  ///< "pass" or "pass.port"
 };
@@ -74,11 +72,7 @@ LODESTIR_API Description loadDescription(const Path& file, const GraphOptions& o
 /// The same for a graph that is already in memory; `file` gives the folder that a relative scene path starts from.
 LODESTIR_API Description readDescription(Json source, const Path& file, const GraphOptions& options = {});
 
-/// "pass.param=value" -> name and value. Error when there is no "=" or no ".".
-struct Assignment {
-    std::string node, name;
-    Json value;
-};
-LODESTIR_API Assignment readAssignment(const std::string& text);
+/// "pass.parameter=value" as the command line has it; the value is JSON, else text (a size also 1280x720). Error when there is no "=" or no ".".
+LODESTIR_API Setting readSetting(const std::string& text);
 
 }  // namespace lodestir

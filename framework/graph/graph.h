@@ -23,6 +23,7 @@ struct Source {
 struct GraphNode {
     std::string name, type;
     const Plugin* plugin = nullptr;
+    Hash code;  ///< PluginLibraries::codeOf
     std::unique_ptr<Pass> pass;
     std::vector<std::optional<Source>> inputs;  ///< for each of pass->ports; empty for what is no input, and for inputs left unwired
     bool off = false;                           ///< never runs: consumers are already rewired through its bypasses
@@ -56,8 +57,8 @@ LODESTIR_API Source findSource(const Graph& graph, const std::string& name, cons
 /// Sets "pass.param" with the checks of the graph file. Returns false when the value was that already.
 LODESTIR_API bool setParameter(Graph& graph, const std::string& name, const Json& value);
 /// A JSON value as a parameter's value. Error at value.where() when it has the wrong kind or is out of range; `owner` names the pass.
-/// A file that is named by none is relative to `folder`.
-LODESTIR_API Value readValue(const Parameter& parameter, const Json& value, std::string_view owner, const Path& folder = {});
+/// A file is relative to the file that names it, or to the working folder.
+LODESTIR_API Value readValue(const Parameter& parameter, const Json& value, std::string_view owner);
 /// The inverse of readValue: choices by name, floats with as few digits as give them back.
 LODESTIR_API Json writeValue(const Parameter& parameter, const Value& value);
 

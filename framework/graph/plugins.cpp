@@ -2,7 +2,10 @@
 // Loads pass libraries with dlopen and looks up their passes. LODESTIR_ABI is given by the build.
 #include <framework/graph/plugins.h>
 
+#include <framework/graph/scene_node.h>
+
 #include <fmt/format.h>
+#include <lodestir/sources.h>
 
 #include <algorithm>
 #include <dlfcn.h>
@@ -41,7 +44,10 @@ void checkAbi(const Plugin& plugin, const std::string& folder, const Path& file,
 
 std::string_view frameworkAbi() { return LODESTIR_ABI; }
 
+std::string_view frameworkSources() { return LODESTIR_SOURCES; }
+
 PluginLibraries::PluginLibraries(std::vector<Path> extraFolders) {
+    addBuiltIn("scene", scenePlugin());
     folders_.push_back(passFolder());
     for (Path& folder : extraFolders) {
         std::error_code none;
@@ -86,9 +92,10 @@ std::vector<std::string> PluginLibraries::knownFolders() const {
     return {names.begin(), names.end()};
 }
 
-const std::vector<const Plugin*>& PluginLibraries::library(const std::string& folder, const Path& file, const Where& where) {
+const PluginLibraries::Library& PluginLibraries::library(const std::string& folder, const Path& file, const Where& where) {
     if (const auto known = libraries_.find(folder); known != libraries_.end()) return known->second;
 
+    const Hash code = Hash().add(readBytes(file));
     // A missing symbol is an error now, with its name, and no library sees the symbols of another.
     void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!handle) {
@@ -107,7 +114,7 @@ const std::vector<const Plugin*>& PluginLibraries::library(const std::string& fo
         plugins.push_back(plugin);
     }
     std::ranges::reverse(plugins);  // each pass put itself before the others
-    return libraries_.emplace(folder, std::move(plugins)).first->second;
+    return libraries_.emplace(folder, Library{std::move(plugins), code}).first->second;
 }
 
 const Plugin& PluginLibraries::find(const std::string& type, const Where& where) {
@@ -117,7 +124,7 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     const Path file = fileOf(folder, where);
     if (file.empty()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(folder, knownFolders()));
 
-    const std::vector<const Plugin*>& plugins = library(folder, file, where);
+    const std::vector<const Plugin*>& plugins = library(folder, file, where).plugins;
     std::vector<std::string> names;
     for (const Plugin* plugin : plugins) names.push_back(folder + "." + plugin->type);
     if (dot == type.npos) {
@@ -130,6 +137,12 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     return *plugins[static_cast<std::size_t>(found - names.begin())];
 }
 
+Hash PluginLibraries::codeOf(const std::string& type, const Where& where) {
+    if (builtIns_.contains(type)) return Hash().add(frameworkSources());
+    const std::string folder = type.substr(0, type.find('.'));
+    return library(folder, fileOf(folder, where), where).code;
+}
+
 std::vector<PluginLibraries::Entry> PluginLibraries::all(Problems& problems) {
     std::vector<Entry> entries;
     for (const std::string& name : knownFolders()) {
@@ -138,7 +151,7 @@ std::vector<PluginLibraries::Entry> PluginLibraries::all(Problems& problems) {
             continue;
         }
         try {
-            const std::vector<const Plugin*>& plugins = library(name, fileOf(name, {}), {});
+            const std::vector<const Plugin*>& plugins = library(name, fileOf(name, {}), {}).plugins;
             for (const Plugin* plugin : plugins) entries.push_back({plugins.size() == 1 ? name : name + "." + plugin->type, plugin});
         } catch (const Error& error) {
             problems.add(error);

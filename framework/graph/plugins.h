@@ -17,14 +17,16 @@ namespace lodestir {
 /// process ends.
 class LODESTIR_API PluginLibraries {
 public:
+    /// Knows the built-in pass "scene".
     explicit PluginLibraries(std::vector<Path> extraFolders = {});
 
     /// A pass that is part of the framework (or of a test); hides a folder of the same name.
     void addBuiltIn(const std::string& type, const Plugin& plugin);
-    bool hasBuiltIn(const std::string& type) const { return builtIns_.contains(type); }
     /// The plugin of a type, loading its library. Error at `where`: no such folder or struct (with a guess), not loadable, or built
     /// against another framework.
     const Plugin& find(const std::string& type, const Where& where = {});
+    /// Names what a type's code was built to: the bytes of its library, as they were when it was loaded; of a built-in pass the framework's sources.
+    Hash codeOf(const std::string& type, const Where& where = {});
 
     struct Entry {
         std::string type;
@@ -36,18 +38,24 @@ public:
     const std::vector<Path>& folders() const { return folders_; }
 
 private:
-    /// The passes of one folder, in order of declaration; loads the library.
-    const std::vector<const Plugin*>& library(const std::string& folder, const Path& file, const Where& where);
+    struct Library {
+        std::vector<const Plugin*> plugins;  ///< in order of declaration
+        Hash code;
+    };
+    /// The library of one folder, loaded when first asked for.
+    const Library& library(const std::string& folder, const Path& file, const Where& where);
     Path fileOf(const std::string& folder, const Where& where) const;  ///< empty: there is none; Error at `where`: in two families
     std::vector<std::string> knownFolders() const;                     ///< sorted, with the built-in types
 
     std::vector<Path> folders_;
     std::map<std::string, Plugin> builtIns_;
-    std::map<std::string, std::vector<const Plugin*>> libraries_;
+    std::map<std::string, Library> libraries_;
 };
 
 /// Names the headers, the compiler and the flags that this framework was built with.
 LODESTIR_API std::string_view frameworkAbi();
+/// Names the sources that this framework was built from, but for those of commands, windows and reports.
+LODESTIR_API std::string_view frameworkSources();
 /// A file of a pass's folder: beside its library first, then beside its source.
 LODESTIR_API Path shaderOf(const Plugin& plugin, std::string_view file);
 /// Folders in which the includes of a pass's shaders and struct headers are looked up: beside the library, beside the source, the

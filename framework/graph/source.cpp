@@ -24,18 +24,22 @@ int onlyOutput(const GraphNode& node, const Where& where) {
                 fmt::format("name one: {}.{}", node.name, fmt::join(outputs, fmt::format(", {}.", node.name))));
 }
 
+int bypassOf(const Pass& pass, int port) {
+    const auto bypass = std::ranges::find(pass.bypasses, pass.ports[std::size_t(port)], &Pass::Bypass::out);
+    return bypass == pass.bypasses.end() ? -1 : int(std::ranges::find(pass.ports, bypass->in) - pass.ports.begin());
+}
+
 std::optional<Source> throughBypasses(const std::vector<GraphNode>& nodes, Source source, const Where& where) {
     for (std::size_t steps = 0; nodes[std::size_t(source.node)].off; ++steps) {
         const GraphNode& node = nodes[std::size_t(source.node)];
         const std::string name(node.pass->ports[std::size_t(source.port)]->name);
         if (steps > nodes.size())
             throw Error(where, fmt::format("pass \"{}\" is off and its \"{}\" comes back to itself", node.name, name));
-        const auto bypass = std::ranges::find(node.pass->bypasses, node.pass->ports[std::size_t(source.port)], &Pass::Bypass::out);
-        if (bypass == node.pass->bypasses.end()) {
+        const int in = bypassOf(*node.pass, source.port);
+        if (in < 0) {
             throw Error(where, fmt::format("pass \"{}\" is off, and no input stands for its \"{}\"", node.name, name),
                         "wire another source");
         }
-        const auto in = std::ranges::find(node.pass->ports, bypass->in) - node.pass->ports.begin();
         const std::optional<Source>& next = node.inputs[std::size_t(in)];
         if (!next) return std::nullopt;
         if (next->prev && source.prev) {

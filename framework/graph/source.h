@@ -33,6 +33,9 @@ std::vector<std::string> nodeNames(const std::vector<GraphNode>& nodes);
 /// The only output of a node, for references that name the pass alone. Error at `where` when there is none or more than one.
 int onlyOutput(const GraphNode& node, const Where& where);
 
+/// The input that stands for an output when its pass is off; -1: none does.
+int bypassOf(const Pass& pass, int port);
+
 /// Where the value of `source` really comes from when passes on the way are off. Empty: from an input that is unwired.
 std::optional<Source> throughBypasses(const std::vector<GraphNode>& nodes, Source source, const Where& where);
 

@@ -29,12 +29,12 @@ int readChoice(const Parameter& p, const Json& value, const std::string& what) {
     throw Error(value.where(), fmt::format("{} can't be \"{}\"", what, name), didYouMean(name, known));
 }
 
-/// Relative to the folder of the file that names it, or to `folder` where no file does.
-std::string readFile(const Json& value, const std::string& what, const Path& folder) {
+/// Relative to the folder of the file that names it, or to the working folder where no file does.
+std::string readFile(const Json& value, const std::string& what) {
     const std::string named = value.asString(what);
     if (named.empty()) return {};
     const Path by = value.where().file;
-    const Path base = isFile(by) ? by.parent_path() : folder;
+    const Path base = isFile(by) ? by.parent_path() : Path();
     const Path whole = std::filesystem::absolute(namedPath(base, named)).lexically_normal();
     if (!isFile(whole)) throw Error(value.where(), fmt::format("{}: there is no file {}", what, whole.string()));
     return whole.string();
@@ -42,7 +42,7 @@ std::string readFile(const Json& value, const std::string& what, const Path& fol
 
 }  // namespace
 
-Value readValue(const Parameter& p, const Json& value, std::string_view owner, const Path& folder) {
+Value readValue(const Parameter& p, const Json& value, std::string_view owner) {
     const std::string what = fmt::format("pass \"{}\": \"{}\"", owner, p.name);
     if (p.isChoice()) return readChoice(p, value, what);
     if (std::holds_alternative<bool>(p.initial)) return value.asBool(what);
@@ -51,7 +51,7 @@ Value readValue(const Parameter& p, const Json& value, std::string_view owner, c
         // As a float: 0.1 written in a file is the 0.1f that a pass gives as its limit.
         return within<float>(p, value, what, static_cast<float>(value.asNumber(what)));
     }
-    return p.isFile ? readFile(value, what, folder) : value.asString(what);
+    return p.isFile ? readFile(value, what) : value.asString(what);
 }
 
 Json writeValue(const Parameter& p, const Value& value) {
@@ -76,7 +76,7 @@ bool setParameter(Graph& graph, const std::string& name, const Json& value) {
     for (Parameter* parameter : node.pass->parameters) {
         names.emplace_back(parameter->name);
         if (parameter->name != parameterName) continue;
-        Value next = readValue(*parameter, value, node.name, graph.description.setFolder);
+        Value next = readValue(*parameter, value, node.name);
         if (next == parameter->value) return false;
         parameter->value = std::move(next);
         return true;

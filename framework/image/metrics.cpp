@@ -130,6 +130,7 @@ double oneMinusMean(const std::vector<double>& errors) { return 1 - mean(errors)
 struct Metric {
     const char* name;
     const char* about;
+    MetricScale scale;
     std::vector<double> (*map)(const Pair& pair);
     double (*pool)(const std::vector<double>& errors);
     int margin = 0;                               ///< pixels nearer to the border are not pooled
@@ -137,43 +138,43 @@ struct Metric {
 };
 
 constexpr Metric table[] = {
-    {"mse", "mean of (x - r)^2 over pixels and channels, linear values", byChannel<squared>, mean},
-    {"rmse", "square root of mse", byChannel<squared>, rootMean},
+    {"mse", "mean of (x - r)^2 over pixels and channels, linear values", {"radiance²"}, byChannel<squared>, mean},
+    {"rmse", "square root of mse", {"radiance"}, byChannel<squared>, rootMean},
     {"relmse",
      "mean over pixels of (x - r)^2, averaged over channels, / (mean(r)^2 + 0.01), mean(r) over the pixel's channels; "
-     "both images scaled first so that the median luminance of r is 0.18",
+     "both images scaled first so that the median luminance of r is 0.18", {},
      relativeSquared, mean},
-    {"relmse_trimmed", "relmse without the 0.1 % of pixels whose errors are largest (rounded down); stands beside relmse, not in its place",
+    {"relmse_trimmed", "relmse without the 0.1 % of pixels whose errors are largest (rounded down); stands beside relmse, not in its place", {},
      relativeSquared, trimmedMean},
-    {"mae", "mean of |x - r| over pixels and channels, linear values", byChannel<absolute>, mean},
-    {"mape", "mean of 100 |x - r| / (|r| + 0.01) over pixels and channels, percent; images scaled as for relmse",
+    {"mae", "mean of |x - r| over pixels and channels, linear values", {"radiance"}, byChannel<absolute>, mean},
+    {"mape", "mean of 100 |x - r| / (|r| + 0.01) over pixels and channels, percent; images scaled as for relmse", {"%"},
      byChannel<absolutePercentage>, mean},
-    {"smape", "mean of |x - r| / (|x| + |r| + 0.01) over pixels and channels, 0 to 1; images scaled as for relmse", byChannel<symmetric>,
+    {"smape", "mean of |x - r| / (|x| + |r| + 0.01) over pixels and channels, 0 to 1; images scaled as for relmse", {}, byChannel<symmetric>,
      mean},
-    {"bias", "mean(x) / mean(r) - 1 over pixels and channels; positive where x is too bright", relativeDifference, mean},
-    {"psnr", "-10 log10 of the mse of the images as displayed (clamped to [0, 1], sRGB-encoded, peak 1), dB; infinite for equal images",
+    {"bias", "mean(x) / mean(r) - 1 over pixels and channels; positive where x is too bright", {.fromZero = false}, relativeDifference, mean},
+    {"psnr", "-10 log10 of the mse of the images as displayed (clamped to [0, 1], sRGB-encoded, peak 1), dB; infinite for equal images", {"dB", false},
      byChannel<squaredDisplayed>, decibels},
     {"flip",
      "mean of HDR-FLIP (Andersson et al. 2021), 0 to 1: each pixel's largest LDR-FLIP error over exposures, ACES-tone-mapped, from that "
      "which shows the brightest pixel of r at 0.85 of white to that which shows the median luminance so (of the pixels above 0 where it is "
-     "0), as many as stops between; of pictures as displayed (PNG, JPEG) flip_ldr; 67 pixels per degree",
+     "0), as many as stops between; of pictures as displayed (PNG, JPEG) flip_ldr; 67 pixels per degree", {},
      flip, mean},
     {"flip_ldr",
-     "mean of LDR-FLIP (Andersson et al. 2020), 0 to 1, of the images as displayed (clamped to [0, 1], sRGB-encoded); 67 pixels per degree",
+     "mean of LDR-FLIP (Andersson et al. 2020), 0 to 1, of the images as displayed (clamped to [0, 1], sRGB-encoded); 67 pixels per degree", {},
      flipDisplayed, mean},
     {"ssim",
      "mean of SSIM (Wang et al. 2004) over pixels 5 and more from the border, 1 for equal images: Gaussian window of 11 x 11 pixels, sigma "
      "1.5, C1 = 1e-4, C2 = 9e-4, on the Rec. 709 luma of the images scaled as for relmse, ACES-tone-mapped and sRGB-encoded; NaN below 11 "
-     "pixels a side",
+     "pixels a side", {.fromZero = false},
      dissimilarity, oneMinusMean, ssimMargin},
     {"gmsd",
      "gradient magnitude similarity deviation (Xue et al. 2014), 0 for equal images: standard deviation over pixels of (2 gx gr + c) / "
      "(gx^2 + gr^2 + c), g being Prewitt gradients of means of 2 x 2 pixels of the luma of ssim, c = 0.0026; an error that is the same "
-     "everywhere has 0",
+     "everywhere has 0", {},
      gradientDissimilarity, deviation},
     {"ms_ssim",
      "MS-SSIM (Wang et al. 2003), 1 for equal images: as ssim, on five scales; below 176 pixels a side on those of 11 pixels and more, "
-     "their powers scaled to the same sum, so that only values of one size compare; NaN below 11",
+     "their powers scaled to the same sum, so that only values of one size compare; NaN below 11", {.fromZero = false},
      nullptr, nullptr, 0, similarityOfScales},
 };
 
@@ -220,6 +221,11 @@ std::vector<std::string> metricNames() {
     std::vector<std::string> names;
     for (const Metric& metric : table) names.emplace_back(metric.name);
     return names;
+}
+
+MetricScale scaleOf(std::string_view name) {
+    const auto found = std::ranges::find(table, name, [](const Metric& metric) { return std::string_view(metric.name); });
+    return found == std::end(table) ? MetricScale{} : found->scale;
 }
 
 std::string metricAbout(std::string_view name) { return metricNamed(name).about; }

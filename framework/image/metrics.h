@@ -28,6 +28,13 @@ struct MetricOptions {
 LODESTIR_API double exposureOf(const ImageData& reference);
 
 LODESTIR_API std::vector<std::string> metricNames();
+/// What a chart has to know of a metric.
+struct MetricScale {
+    std::string_view unit = {};
+    bool fromZero = true;  ///< never negative but for noise, and smaller is better: fit for a logarithmic axis
+};
+/// Of any name, of which those without an entry in the table (metrics of sequences) have no unit.
+LODESTIR_API MetricScale scaleOf(std::string_view name);
 /// The definition in a sentence, x being the test image and r the reference. Error when there is no such metric.
 LODESTIR_API std::string metricAbout(std::string_view name);
 

@@ -13,8 +13,8 @@ namespace lodestir {
 /// A frame and the one before it, as rendered and as they should be; images of one size and the same channels.
 struct Step {
     const ImageData &test, &testBefore, &reference, &referenceBefore;
-    /// Two channels: from each pixel to where the frame before showed the same point, pixels, x to the right, y down (as the pass
-    /// `visibility` gives it). Absent: nothing moves. A pixel whose point was outside the frame does not count.
+    /// Two channels: from each pixel to where the frame before showed the same point, pixels, x to the right, y down. Absent: nothing moves. A pixel
+    /// whose point was outside the frame does not count.
     const ImageData* motion = nullptr;
 };
 

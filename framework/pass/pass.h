@@ -74,6 +74,7 @@ public:
     std::vector<Parameter*> parameters;
     Cadence cadence = Cadence::everyFrame;
     bool restartOnChange = false;        ///< State is cleared whenever any parameter of the graph changes (accumulation)
+    bool forDisplay = false;             ///< what it makes is for eyes: errors are measured in what it hands through when off (tone mapping)
     struct Bypass {
         const Port* in;
         const Port* out;

@@ -29,9 +29,9 @@ std::string describe(const LodPolicy& policy) {
     switch (policy.mode) {
         case LodMode::finest: return "finest level of every instance";
         case LodMode::schedule: return "schedule with " + std::to_string(policy.schedule.size()) + " switches";
-        case LodMode::screenError: return "screen_error, which needs a lod_select pass: the finest level is shown";
-        case LodMode::distance: return "distance, which needs a lod_select pass: the finest level is shown";
-        case LodMode::stochastic: return "stochastic, which needs a lod_select pass: the finest level is shown";
+        case LodMode::screenError: return "screen_error, which needs a pass that selects levels: the finest level is shown";
+        case LodMode::distance: return "distance, which needs a pass that selects levels: the finest level is shown";
+        case LodMode::stochastic: return "stochastic, which needs a pass that selects levels: the finest level is shown";
     }
     return {};
 }

@@ -7,9 +7,10 @@
 
 namespace lodestir {
 
-/// Of a graph: its text with all defaults (without the scene's path), and the sources of its passes with all that their shaders include.
+/// Of a graph: its text with all defaults (without the scene's path), the code of the framework and of its passes as they were built, and the shaders
+/// of its passes with all that they include.
 Hash contentOf(const Graph& graph);
-/// Of all that a loaded scene holds but names and places of files.
+/// Of all that a loaded scene holds but texts.
 Hash contentOf(const Scene& scene);
 
 }  // namespace lodestir

@@ -8,10 +8,10 @@
 #include <charconv>
 
 namespace lodestir {
-std::vector<std::vector<StudySetting>> combinations(const Technique& technique) {
-    std::vector<std::vector<StudySetting>> all{{}};
+std::vector<std::vector<Setting>> combinations(const Technique& technique) {
+    std::vector<std::vector<Setting>> all{{}};
     for (const Knob& knob : technique.vary) {
-        std::vector<std::vector<StudySetting>> longer;
+        std::vector<std::vector<Setting>> longer;
         for (const auto& combination : all)
             for (const Json& value : knob.values) {
                 longer.push_back(combination);
@@ -34,15 +34,15 @@ std::vector<StudyRun> expandRuns(const Study& study) {
     return runs;
 }
 
-std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<StudySetting>& knobs, std::uint32_t seed) {
+std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<Setting>& knobs, std::uint32_t seed) {
     if (study.paired) return seed;
     const Hash place = Hash().add(study.techniques[technique].name + "\n" + knobJson(knobs).dump());
     return (seed + std::uint32_t(place.a)) % firstReferenceSeed;
 }
 
-nlohmann::ordered_json knobJson(const std::vector<StudySetting>& knobs) {
+nlohmann::ordered_json knobJson(const std::vector<Setting>& knobs) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
-    for (const StudySetting& knob : knobs) json[knob.name] = knob.value.plain();
+    for (const Setting& knob : knobs) json[knob.name] = knob.value.plain();
     return json;
 }
 

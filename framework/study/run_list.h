@@ -13,23 +13,23 @@ namespace lodestir {
 
 struct StudyRun {
     std::size_t scene = 0, technique = 0;  ///< indices into the study
-    std::vector<StudySetting> knobs;       ///< one of each of the technique's knobs
+    std::vector<Setting> knobs;       ///< one of each of the technique's knobs
     std::uint32_t seed = 0;
 };
 
 /// Every combination of a technique's knob values, the last knob fastest.
-std::vector<std::vector<StudySetting>> combinations(const Technique& technique);
+std::vector<std::vector<Setting>> combinations(const Technique& technique);
 
 /// The seed that a technique with knob values draws for one of the study's. Paired, it is the study's own: differences between techniques can
 /// be taken run by run, but what all of them show alike is one observation. Else it lies at a distance that follows from the technique's
 /// name and knobs, below the seeds of references.
-std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<StudySetting>& knobs, std::uint32_t seed);
+std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<Setting>& knobs, std::uint32_t seed);
 
 /// Scene by scene, so that each is loaded once; within a scene seed by seed, so that a machine that grows slow or busy slows all techniques alike.
 std::vector<StudyRun> expandRuns(const Study& study);
 
 /// {"trace.spp": 4}
-nlohmann::ordered_json knobJson(const std::vector<StudySetting>& knobs);
+nlohmann::ordered_json knobJson(const std::vector<Setting>& knobs);
 
 /// Every `count`th run, for several machines at work on one study.
 struct Shard {

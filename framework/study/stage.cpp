@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <framework/core/is_file.h>
 #include <framework/core/log.h>
-#include <framework/graph/scene_node.h>
+#include <framework/graph/source.h>
 #include <framework/image/exr.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
-#include <framework/study/error/motions.h>
 #include <framework/study/stage.h>
-#include <framework/study/error/switched_masks.h>
 
 #include <fmt/format.h>
 
@@ -25,15 +23,14 @@ ImageData colorOf(const ImageData& image, const std::string& name) {
     return image.channels == 3 ? image : firstChannels(image, 3);
 }
 
-/// What stands before tone mapping: errors are measured in radiance.
+/// What stands before passes that make images for eyes: errors are measured in radiance.
 Source linearSource(const Graph& graph, Source source) {
-    while (graph.nodes[std::size_t(source.node)].type == "tone_map") {
+    while (true) {
         const GraphNode& node = graph.nodes[std::size_t(source.node)];
-        const auto wired = std::ranges::find_if(node.inputs, [](const auto& input) { return input.has_value(); });
-        if (wired == node.inputs.end()) break;
-        source = **wired;
+        const int in = node.pass->forDisplay ? bypassOf(*node.pass, source.port) : -1;
+        if (in < 0 || !node.inputs[std::size_t(in)]) return source;
+        source = *node.inputs[std::size_t(in)];
     }
-    return source;
 }
 
 /// Puts a scene's policy of levels back in its place.
@@ -78,50 +75,30 @@ int firstAlike(const Study& study, const Scene& scene, int frame) {
     return frame;
 }
 
-/// A --set of ours is at a place of the study file.
-Problem placed(Problem problem, const StudyGraph& choice, const std::vector<StudySetting>& knobs) {
-    if (!problem.where.file.starts_with("--set")) return problem;
-    const std::string text = problem.where.file.substr(5);
-    problem.where = choice.where;
-    for (const auto* list : {&choice.set, &knobs})
-        for (const StudySetting& setting : *list)
-            if (text.starts_with(" " + setting.name + "=" + setting.value.dump(-1))) problem.where = setting.value.where();
-    return problem;
-}
-
 }  // namespace
 
-Stage::Stage(const Study& study, const StageOptions& options) : study_(study), options_(options), libraries_(options.passes) {
-    libraries_.addBuiltIn("scene", scenePlugin());
-}
+Stage::Stage(const Study& study, const RendererOptions& options) : study_(study), renderer_(options) {}
 
 Stage::~Stage() = default;
 
-StagedGraph Stage::build(const StudyGraph& choice, const std::vector<StudySetting>& knobs, std::size_t scene, std::uint32_t seed) {
+StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
     GraphOptions options{
         .scene = std::filesystem::absolute(study_.scenes[scene].file),
         .size = study_.size,
         .seed = seed,
-        .setFolder = study_.file.empty() ? Path() : std::filesystem::absolute(study_.file).parent_path(),  // a study made in memory has no place
+        .set = choice.set,
         .variant = choice.variant};
-    for (const auto* list : {&choice.set, &knobs})
-        for (const StudySetting& setting : *list) options.set.push_back(setting.name + "=" + setting.value.dump(-1));
-    try {
-        StagedGraph staged{.graph = buildGraph(loadDescription(choice.graph, options), libraries_)};
-        staged.port =
-            choice.port.empty() ? linearSource(staged.graph, staged.graph.show) : findSource(staged.graph, choice.port, choice.where);
-        const Port& port = staged.graph.port(staged.port);
-        if (port.type.kind != PortType::Kind::image)
-            throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
-        if (sizeOf(staged.graph, staged.port.node, staged.port.port, study_.size) != study_.size)
-            throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
-                        "name another with \"port\"");
-        return staged;
-    } catch (const Error& error) {
-        std::vector<Problem> problems;
-        for (const Problem& problem : error.problems()) problems.push_back(placed(problem, choice, knobs));
-        throw Error(std::move(problems));
-    }
+    options.set.insert(options.set.end(), knobs.begin(), knobs.end());
+    StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
+    staged.port =
+        choice.port.empty() ? linearSource(staged.graph, staged.graph.show) : findSource(staged.graph, choice.port, choice.where);
+    const Port& port = staged.graph.port(staged.port);
+    if (port.type.kind != PortType::Kind::image)
+        throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
+    if (sizeOf(staged.graph, staged.port.node, staged.port.port, study_.size) != study_.size)
+        throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
+                    "name another with \"port\"");
+    return staged;
 }
 
 void Stage::check() {
@@ -146,22 +123,6 @@ void Stage::check() {
     problems.raise();
 }
 
-void Stage::open() {
-    if (device_) return;
-    device_ = std::make_unique<gpu::Device>(gpu::DeviceOptions{.choice = options_.device});
-    rays_ = chooseRayBody(device_->facts(), options_.rays);
-}
-
-const gpu::DeviceFacts& Stage::device() {
-    open();
-    return device_->facts();
-}
-
-RayBody Stage::rays() {
-    open();
-    return rays_;
-}
-
 const Scene& Stage::scene(std::size_t index) {
     if (loaded_ != index) {
         loaded_.reset();
@@ -183,6 +144,7 @@ std::string Stage::nameOf(const StudyRun& run) {
     Hash hash;
     hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
     hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
+    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_, study_.scenes[run.scene])));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
@@ -197,15 +159,12 @@ StagedGraph Stage::buildReference(std::size_t scene, int samples) {
 }
 
 std::unique_ptr<Runner> Stage::makeRunner(StagedGraph& staged, std::size_t index) {
-    open();
-    auto runner = std::make_unique<Runner>(*device_, staged.graph, scene(index), RunnerOptions{.rays = rays_, .pinned = {staged.port}});
-    runner->prepare([](std::size_t, std::size_t) {});
-    return runner;
+    return renderer_.bringUp(staged.graph, scene(index), {.pinned = {staged.port}});
 }
 
-ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) const {
+ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) {
     ImageData image = colorOf(runner.readImage(staged.port), staged.graph.nameOf(staged.port));
-    if (!device_->validationMessages().empty()) throw Error("validation: " + device_->validationMessages().front());
+    if (const auto& messages = renderer_.device().validationMessages(); !messages.empty()) throw Error("validation: " + messages.front());
     return image;
 }
 
@@ -245,15 +204,7 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
     return {std::move(a), half(1)};
 }
 
-std::vector<std::vector<bool>> Stage::switchedMasks(std::size_t index) {
-    open();
-    return lodestir::switchedMasks({study_, study_.scenes[index], scene(index), libraries_, *device_, rays_});
-}
-
-std::vector<ImageData> Stage::motions(std::size_t index) {
-    open();
-    return measuredMotions({study_, study_.scenes[index], scene(index), libraries_, *device_, rays_});
-}
+Seen Stage::see(std::size_t index) { return seeFrames(renderer_, study_, study_.scenes[index], scene(index)); }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
 ImageData Stage::renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half) {

@@ -3,6 +3,7 @@
 #include <framework/core/is_file.h>
 #include <framework/image/temporal.h>
 #include <framework/scene/fields.h>
+#include <framework/study/report/report.h>
 #include <framework/study/study_file.h>
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@
 namespace lodestir {
 namespace {
 
-const std::vector<std::string> chartNames{"error_vs_time", "error_vs_rays", "error_vs_frame", "time_by_pass", "stability"};
 
 /// Seeds above are kept for references, so that none is ever compared with itself.
 constexpr int maxSeed = std::numeric_limits<int>::max();
@@ -49,7 +49,7 @@ public:
             std::ranges::copy(temporalMetricNames(), std::back_inserter(metrics));
             study_.metrics = readNames(fields.find("metrics"), "metric", metrics, {"relmse", "mse"});
             checkSteps(fields.find("metrics"));
-            study_.charts = readNames(fields.find("charts"), "chart", chartNames, chartNames);
+            study_.charts = readNames(fields.find("charts"), "chart", chartNames(), chartNames());
             readMask(fields);
         }
         fields.finish();
@@ -269,7 +269,7 @@ private:
                 const auto& [name, values] = member;
                 if (values.items(fmt::format("\"{}\"", name)).empty())
                     throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
-                if (std::ranges::find(technique.graph.set, name, &StudySetting::name) != technique.graph.set.end())
+                if (std::ranges::find(technique.graph.set, name, &Setting::name) != technique.graph.set.end())
                     throw Error(values.keyWhere(), fmt::format("\"{}\" is set and varied", name), "remove one of them");
                 Knob knob{.name = name};
                 for (const Json& item : values.items()) {

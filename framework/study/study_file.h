@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/core/files.h>
 #include <framework/core/json.h>
+#include <framework/graph/description.h>
 
 #include <glm/glm.hpp>
 
@@ -14,17 +15,11 @@
 
 namespace lodestir {
 
-/// "pass.parameter" and a value, with its place.
-struct StudySetting {
-    std::string name;
-    Json value;
-};
-
 /// A graph with changes, and the image port of it that is measured.
 struct StudyGraph {
     Path graph;
     std::optional<std::string> variant;
-    std::vector<StudySetting> set;
+    std::vector<Setting> set;
     std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
     Where where;       ///< of the graph's name
 };

@@ -3,7 +3,7 @@
 #include "../temporary_folder.h"
 #include "printed.h"
 
-#include <framework/app/commands/compare.h>
+#include <framework/app/commands/commands.h>
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/json.h>

@@ -99,7 +99,7 @@ TEST(Description, TheCommandLineWinsOverFileAndVariant) {
     options.size = glm::uvec2(64, 32);
     options.seed = 4000000000u;
     options.show = "hits";
-    options.set = {"shade.bounces=9", "shade.mode=nee", "shade.gain=0.5", "hits.flag=true", "frame.seed=12"};
+    for (const char* set : {"shade.bounces=9", "shade.mode=nee", "shade.gain=0.5", "hits.flag=true", "frame.seed=12"}) options.set.push_back(readSetting(set));
     const Description d = read(options);
     EXPECT_EQ(d.scene, std::filesystem::current_path() / "other.glb");
     EXPECT_EQ(d.count, 3);
@@ -111,14 +111,17 @@ TEST(Description, TheCommandLineWinsOverFileAndVariant) {
     EXPECT_EQ(d.nodes[1].settings[2].value.asNumber(), 0.5);
     EXPECT_TRUE(d.nodes[0].settings[0].value.asBool());
     EXPECT_EQ(read({.seed = 4000000000u}).seed, 4000000000u);
-    EXPECT_EQ(read({.set = {"frame.size=1280x720"}}).size, glm::uvec2(1280, 720));
-    EXPECT_EQ(read({.set = {"frame.size=[128, 72]"}}).size, glm::uvec2(128, 72));
+    EXPECT_EQ(read({.set = {readSetting("frame.size=1280x720")}}).size, glm::uvec2(1280, 720));
+    EXPECT_EQ(read({.set = {readSetting("frame.size=[128, 72]")}}).size, glm::uvec2(128, 72));
 }
 
 TEST(Description, NamesTheOptionThatIsWrong) {
-    EXPECT_EQ(complaint({.set = {"shade"}}), "--set shade: this sets nothing; write pass.parameter=value");
-    EXPECT_EQ(complaint({.set = {"shode.bounces=1"}}), "--set shode.bounces=1: no pass \"shode\"; did you mean \"shade\"?");
-    EXPECT_EQ(complaint({.set = {"frame.size=12"}}), "--set frame.size=12: \"size\" must be an array, not an integer (12)");
+    Json placed(1);
+    placed.moveTo({"study.json", 3, 4});
+    EXPECT_THROW(readSetting("shade"), Error);
+    EXPECT_EQ(complaint({.set = {{"shode.bounces", placed}}}), "study.json:3:4: no pass \"shode\"; did you mean \"shade\"?");
+    EXPECT_EQ(complaint({.set = {readSetting("shode.bounces=1")}}), "--set shode.bounces=1: no pass \"shode\"; did you mean \"shade\"?");
+    EXPECT_EQ(complaint({.set = {readSetting("frame.size=12")}}), "--set frame.size=12: \"size\" must be an array, not an integer (12)");
     EXPECT_EQ(complaint({.frames = 0}), "--frames: \"count\" must be 1..2147483647, not 0");
     EXPECT_EQ(complaint({.show = "a.b.c"}), "--show: \"a.b.c\" names no port; write \"pass\" or \"pass.port\"");
 }

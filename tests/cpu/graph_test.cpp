@@ -139,8 +139,8 @@ TEST(Graph, SetsParametersLater) {
 
 TEST(Graph, CommandLineSettingsAreCheckedLikeTheFile) {
     fake::Workshop workshop;
-    EXPECT_EQ(valueOf(workshop.build(R"("r": {"type": "render"})", "r.color", {.set = {"r.gain=0.1"}}), "r", "gain"), "0.1");
-    EXPECT_EQ(complaint([&] { workshop.build(R"("r": {"type": "render"})", "r.color", {.set = {"r.gain=fast"}}); }),
+    EXPECT_EQ(valueOf(workshop.build(R"("r": {"type": "render"})", "r.color", {.set = {readSetting("r.gain=0.1")}}), "r", "gain"), "0.1");
+    EXPECT_EQ(complaint([&] { workshop.build(R"("r": {"type": "render"})", "r.color", {.set = {readSetting("r.gain=fast")}}); }),
               "--set r.gain=fast: pass \"r\": \"gain\" must be a number, not a string (\"fast\")");
 }
 

@@ -5,7 +5,7 @@
 #include "lod_surface.h"
 #include "printed.h"
 
-#include <framework/app/commands/lod.h>
+#include <framework/app/commands/commands.h>
 #include <framework/core/error.h>
 #include <framework/core/json.h>
 #include <framework/scene/gltf/gltf.h>

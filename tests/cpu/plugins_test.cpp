@@ -4,6 +4,7 @@
 #include <framework/graph/header.h>
 #include <framework/graph/plugins.h>
 #include <framework/graph/schema.h>
+#include <framework/study/content.h>
 
 #include <gtest/gtest.h>
 
@@ -49,13 +50,13 @@ protected:
         return path;
     }
 
-    static void compile(const std::string& name, const char* source, const std::string& abi) {
+    static void compile(const std::string& name, const char* source, const std::string& abi, const char* rest = "") {
         const Path folder = root() / name;
         writeFile(folder / (name + ".cpp"), source);
-        const std::string api = LODESTIR_BUILD_DIR "/api";
+        writeFile(folder / "rest.cpp", rest);
+        const std::string api = LODESTIR_BUILD_DIR "/api", sources = (folder / (name + ".cpp")).string() + " " + (folder / "rest.cpp").string();
         const std::string command = "g++ -std=c++20 -fPIC -shared -fvisibility=hidden -I" + api + " -I" + api +
-                                    "/framework/shaders '-DLODESTIR_ABI=\"" + abi + "\"' " + (folder / (name + ".cpp")).string() + " -o " +
-                                    (folder / ("lib" + name + ".so")).string();
+                                    "/framework/shaders '-DLODESTIR_ABI=\"" + abi + "\"' " + sources + " -o " + (folder / ("lib" + name + ".so")).string();
         ASSERT_EQ(std::system(command.c_str()), 0) << command;
     }
 
@@ -115,6 +116,19 @@ TEST_F(Plugins, WorkInAGraph) {
     const Graph graph = buildGraph(readDescription(json, "g.json"), libraries);
     EXPECT_EQ(graph.nameOf(graph.show), "b.copy");
     EXPECT_EQ(std::get<int>(graph.nodes[0].pass->parameters[0]->value), 4);
+}
+
+// A study would keep what no program computes any more.
+TEST_F(Plugins, AnyOfTheirSourcesRenamesResults) {
+    const auto content = [](const char* rest) {
+        compile("single", onePass, LODESTIR_ABI, rest);
+        PluginLibraries libraries({root()});
+        const Json json = Json::parse(R"({"format": 1, "passes": {"a": {"type": "single"}}, "show": "a"})", "g.json");
+        return contentOf(buildGraph(readDescription(json, "g.json"), libraries));
+    };
+    const Hash before = content("int rest() { return 1; }"), same = content("int rest() { return 1; }"), changed = content("int rest() { return 2; }");
+    EXPECT_EQ(before, same);
+    EXPECT_NE(before, changed);
 }
 
 TEST_F(Plugins, FindTheirShaders) {

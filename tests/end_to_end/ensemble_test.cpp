@@ -9,7 +9,7 @@
 namespace lodestir::test {
 namespace {
 
-StudyGraph pathTracer(std::vector<StudySetting> set) {
+StudyGraph pathTracer(std::vector<Setting> set) {
     return {
         .graph = sourceFolder / "graphs/path_tracer.json", .variant = "no accumulation", .set = std::move(set), .port = {}, .where = {}};
 }

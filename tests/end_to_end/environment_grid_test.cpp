@@ -62,7 +62,7 @@ protected:
         EnsembleJudge judged(setup(48));
         const EnsembleResult reference = judge("path tracing", judged.reference());
         EXPECT_EQ(reference.verdict, Verdict::unbiased) << reference.reason;
-        const StudySetting one{"initial.bounces", Json(1)}, many{"initial.candidates", Json(16)};
+        const Setting one{"initial.bounces", Json(1)}, many{"initial.candidates", Json(16)};
         for (const char* variant : {"no reuse", "temporal only", "spatial only", ""}) {
             const EnsembleResult result = judge(variant, judged.measure(studyGraph(graphs / "restir_pt.json", *variant ? variant : nullptr, {one, many})));
             EXPECT_EQ(result.verdict, Verdict::unbiased) << variant << ": " << result.reason;
@@ -105,7 +105,7 @@ TEST_F(EnvironmentGrid, FindsPointsThatAreRounded) {
     json["passes"]["initial"]["type"] = "rounded";
     writeFile(folder.path / "rounded.json", json.dump());
     EnsembleSetup setup = EnvironmentGrid::setup(48);
-    setup.stage.passes = {folder.path};
+    setup.renderer.passes = {folder.path};
     EnsembleJudge judged(setup);
     const EnsembleResult result =
         judge("rounded", judged.measure(studyGraph(folder.path / "rounded.json", "no reuse", {{"initial.bounces", Json(1)}, {"initial.candidates", Json(16)}})));

@@ -25,7 +25,7 @@ public:
     Frames(const Path& scene, glm::uvec2 size, const OrderedJson& passes, std::vector<std::string> ports, std::vector<Path> libraries = {}) {
         SessionOptions options;
         options.graph = folder_.path / "graph.json";
-        options.passes = std::move(libraries);
+        options.renderer.passes = std::move(libraries);
         options.dumps = std::move(ports);
         const OrderedJson graph = {{"format", 1},
                                    {"scene", scene.string()},

@@ -11,7 +11,7 @@
 namespace lodestir::test {
 
 /// What is shown of a graph file with a variant (null: as it is) and settings.
-inline StudyGraph studyGraph(const Path& file, const char* variant, std::vector<StudySetting> set) {
+inline StudyGraph studyGraph(const Path& file, const char* variant, std::vector<Setting> set) {
     return {.graph = file, .variant = variant ? std::optional<std::string>(variant) : std::nullopt, .set = std::move(set), .port = {}, .where = {}};
 }
 

@@ -250,7 +250,7 @@ protected:
 
 TEST_P(Switches, KeepTheEnergy) {
     const auto [name, scene] = make();
-    const auto graph = [](const char* file, std::optional<std::string> variant, std::vector<StudySetting> set) {
+    const auto graph = [](const char* file, std::optional<std::string> variant, std::vector<Setting> set) {
         return StudyGraph{.graph = sourceFolder / "graphs" / file, .variant = variant, .set = std::move(set), .port = {}, .where = {}};
     };
     EnsembleJudge judge({.scene = scene,

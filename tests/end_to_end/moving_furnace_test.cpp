@@ -150,11 +150,11 @@ TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
     const EnsembleResult reference = judge("path tracing", judged.reference(), box);
     EXPECT_EQ(reference.verdict, Verdict::unbiased) << reference.reason;
 
-    const StudySetting bounces{"initial.bounces", Json(8)}, many{"initial.candidates", Json(4)}, radius{"spatial.radius", Json(5)};
+    const Setting bounces{"initial.bounces", Json(8)}, many{"initial.candidates", Json(4)}, radius{"spatial.radius", Json(5)};
     const struct {
         const char *name, *file, *variant;
         bool centre;
-        std::vector<StudySetting> set;
+        std::vector<Setting> set;
     } techniques[] = {{"temporal only", "restir_pt.json", "temporal only", false, {bounces, many}},
                       {"spatial only", "restir_pt.json", "spatial only", false, {bounces, many, radius}},
                       {"ReSTIR PT", "restir_pt.json", nullptr, false, {bounces, many, radius}},
@@ -184,7 +184,7 @@ TEST_F(MovingFurnace, FindsChancesThatAreKept) {
         return folder.path / file;
     };
     EnsembleSetup setup = MovingFurnace::setup(48);
-    setup.stage.passes = {folder.path};
+    setup.renderer.passes = {folder.path};
     setup.referenceSamples = 64;
     EnsembleJudge judged(setup);
     const EnsembleResult paths = judge("temporal only, kept", judged.measure(studyGraph(faulty("restir_pt.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), answer(false));

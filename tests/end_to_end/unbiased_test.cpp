@@ -19,7 +19,7 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
-StudyGraph graph(const char* file, const char* variant, std::vector<StudySetting> set) {
+StudyGraph graph(const char* file, const char* variant, std::vector<Setting> set) {
     return {.graph = sourceFolder / "graphs" / file, .variant = variant, .set = std::move(set), .port = {}, .where = {}};
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `lodestir check`: validates a graph with all its variants and prints its plan. No GPU.
-#include <framework/app/commands/check.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/app/session.h>
 #include <framework/graph/plan.h>
 #include <framework/graph/plugins.h>
-#include <framework/graph/scene_node.h>
 #include <framework/scene/level_policy.h>
 
 #include <fmt/format.h>
@@ -45,8 +44,7 @@ std::string levelPolicy(const Graph& graph) {
 }
 
 int check(const Options& options) {
-    PluginLibraries libraries(options.session.passes);
-    libraries.addBuiltIn("scene", scenePlugin());
+    PluginLibraries libraries(options.session.renderer.passes);
     Problems problems;
     const Graph graph = buildGraph(loadDescription(options.session.graph, options.session.changes), libraries);
     std::vector<Source> pinned;

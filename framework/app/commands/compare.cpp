@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lodestir compare TEST REFERENCE: error metrics of two images.
-#include <framework/app/commands/compare.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/app/metric_option.h>
 #include <framework/app/validators.h>
@@ -205,7 +205,7 @@ void addCompare(CLI::App& app, std::function<int()>& run) {
                 "START,STOP,COUNT in stops for flip, to be the same for all frames that are compared (chosen from REFERENCE)")
         .list(3);
     command.option("--motion", arguments->motion,
-                   "sequence of motions as `visibility` makes them, for the flicker of what moves: out/hits.motion.%d.exr");
+                   "sequence of motions, from each pixel to where it was a frame ago, for the flicker of what moves: out/hits.motion.%d.exr");
     command.option("--map", arguments->map, "write the error of each pixel by the first metric: .exr (values) or .png (colours)")
         .check([](const std::string& name) {
             const std::string extension = Path(name).extension().string();

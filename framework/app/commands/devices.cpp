@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `lodestir devices`: what the machine's Vulkan devices have, what is done without the rest, and whether it works.
-#include <framework/app/commands/devices.h>
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/device_test.h>
 #include <framework/app/validators.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lodestir lod MODEL: builds levels of detail and writes them into a copy of the model.
-#include <framework/app/commands/lod.h>
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/command_line.h>
 #include <framework/core/error.h>

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // `lodestir passes`: what passes exist and what each declares, for people, programs, editors and the docs.
-#include <framework/app/commands/passes.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/core/log.h>
 #include <framework/graph/header.h>
 #include <framework/graph/plugins.h>
-#include <framework/graph/scene_node.h>
 #include <framework/graph/schema.h>
 
 #include <fmt/format.h>
@@ -40,7 +39,6 @@ std::vector<PassType> describeAll(PluginLibraries& libraries, const std::string&
 
 int listPasses(const Options& options) {
     PluginLibraries libraries(options.folders);
-    libraries.addBuiltIn("scene", scenePlugin());
     Problems problems;
     const std::vector<PassType> types = describeAll(libraries, options.name, problems);
     if (options.schema) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/app/commands/run.h>
+// `lodestir run`: renders a graph's frames without a display and writes images, dumps and run.json.
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/command_line.h>
 #include <framework/app/dump.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `lodestir scene`: loads a scene without a GPU and tells triangles, levels, materials, lights, memory, camera and notes.
-#include <framework/app/commands/scene.h>
+#include <framework/app/commands/commands.h>
 #include <framework/app/command_line.h>
 #include <framework/core/json.h>
 #include <framework/scene/scene.h>

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <framework/app/commands/study.h>
+// lodestir study STUDY: runs a study and reports on it.
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/command_line.h>
 #include <framework/app/interrupt.h>
 #include <framework/app/run_report.h>
+#include <framework/app/session.h>
 #include <framework/app/validators.h>
 #include <framework/core/log.h>
 #include <framework/image/temporal.h>
@@ -22,7 +24,7 @@ namespace {
 
 struct StudyOptions {
     Path study, out;
-    StageOptions stage;
+    RendererOptions renderer;
     std::string shard;
     bool resume = false;
 };
@@ -39,8 +41,11 @@ struct SceneReferences {
 
 SceneReferences makeReferences(Stage& stage, const Study& study, std::size_t scene, const Path& folder) {
     SceneReferences references{.scene = scene};
-    if (study.maskSwitched) references.masks = stage.switchedMasks(scene);
-    if (std::ranges::any_of(study.metrics, isTemporal)) references.motions = stage.motions(scene);
+    if (needsSeen(study)) {
+        Seen seen = stage.see(scene);
+        if (study.maskSwitched) references.masks = switchedMasks(seen, study, study.scenes[scene]);
+        references.motions = std::move(seen.motions);
+    }
     for (const int offset : study.measure) {
         references.frames.push_back(stage.reference(scene, offset, folder));
         if (study.referenceFinest) references.finest.push_back(stage.reference(scene, offset, folder, true));
@@ -135,7 +140,7 @@ int runStudy(const StudyOptions& options) {
     const Path file = out / (shard.count == 1 ? "results.jsonl" : fmt::format("results.{}-of-{}.jsonl", shard.index, shard.count));
     if (!options.resume && std::filesystem::exists(file))
         throw Error({file.string(), 0, 0}, "there are results already", "go on with --resume, or name another folder with --out");
-    Stage stage(study, options.stage);
+    Stage stage(study, options.renderer);
     stage.check();
     const InterruptWatch interrupt;
     if (study.kind == StudyKind::ensemble) return runEnsembleStudy(stage, study, out, file, shard, interrupt);
@@ -186,9 +191,7 @@ void addStudy(CLI::App& app, std::function<int()>& run) {
                 return std::string(error.what());
             }
         });
-    command.option("--passes", options->stage.passes, "another folder of pass libraries").repeatable();
-    command.option("--device", options->stage.device, "name or index, see `lodestir devices`").check(checkNotEmpty);
-    command.option("--rays", options->stage.rays, "how rays are traced: packet, lane or ray_query").check(checkNotEmpty);
+    addRendererOptions(command, options->renderer);
     command.does(run, [options] { return runStudy(*options); });
 }
 

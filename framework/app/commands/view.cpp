@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <framework/app/commands/view.h>
+// `lodestir view`: renders a graph into a window, with panels made from its declarations.
+#include <framework/app/commands/commands.h>
 
 #include <framework/app/view/canvas.h>
 #include <framework/app/command_line.h>
@@ -25,7 +26,7 @@ int showWindow(const ViewOptions& options) {
     const auto frames = std::uint64_t(sessionOptions.changes.frames.value_or(0));
     sessionOptions.changes.frames.reset();  // here it says when to quit
     Window window(glm::ivec2(options.window), "Lodestir: " + sessionOptions.graph.filename().string());
-    const auto device = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.device, .windowExtensions = window.vulkanExtensions()});
+    const auto device = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.renderer.device, .windowExtensions = window.vulkanExtensions()});
     Canvas canvas(*device, window);
     PicturePainter painter(*device);
     Viewport viewport;

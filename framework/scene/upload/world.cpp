@@ -256,9 +256,9 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     }
     std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
     if (!levels_ || levels != levels_->values) {
-        std::vector<std::uint32_t> marked = levels;
-        marked.push_back(1);  // they differ from those before: made anew only then
-        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(marked), "levels");
+        std::vector<std::uint32_t> words = levels;
+        words.push_back(1);  // levelsChanged: this is made anew only where they do
+        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(words), "levels");
         levels_ = std::make_shared<const Levels>(Levels{std::move(levels), std::move(buffer)});
     }
     World w{};
@@ -267,6 +267,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.traceInstances = moving_->traceInstances.address();
     w.roots = fixed_->roots.address();
     w.levels = levels_->buffer.address();
+    w.levelsChanged = w.levels + levels_->values.size() * sizeof(std::uint32_t);
     w.bottomLevels = moving_->bottomLevels ? moving_->bottomLevels->addresses.address() : 0;
     w.gridBase = moving_->gridBase;
     w.gridScale = moving_->gridScale;

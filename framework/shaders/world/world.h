@@ -199,7 +199,8 @@ struct World {
     uint64_t triangles;                              // 48-byte triangles in grid space, BVH order; index = Hit.primitive
     uint64_t traceInstances;                         // TraceInstance of each instance
     LODESTIR_ARRAY_OF(UintArray) roots;              // node reference of mesh m at level l: roots[m * LEVELS + l]
-    LODESTIR_ARRAY_OF(UintArray) levels;             // level shown of each instance; behind the last, 1 where any differs from last frame's
+    LODESTIR_ARRAY_OF(UintArray) levels;             // level shown of each instance
+    LODESTIR_ARRAY_OF(UintArray) levelsChanged;      // one word: 1 where any of them differs from last frame's
     uint64_t bottomLevels;                           // for ray queries: address of the driver's structure of mesh m at level l at m * LEVELS + l; 0: none
     uint64_t tlas;                                   // the driver's top level over the levels shown, set by the runner; 0: none
     vec3 gridBase;                                   // of the top level: world = base + scale * grid

@@ -24,7 +24,7 @@ Study studyOf(const EnsembleSetup& setup) {
 
 }  // namespace
 
-EnsembleJudge::EnsembleJudge(EnsembleSetup setup) : study_(studyOf(setup)), stage_(study_, setup.stage) {
+EnsembleJudge::EnsembleJudge(EnsembleSetup setup) : study_(studyOf(setup)), stage_(study_, setup.renderer) {
     reference_ = render(std::nullopt, batchesOf(study_));
 }
 

@@ -16,7 +16,7 @@ struct EnsembleSetup {
     StudyGraph reference;
     int referenceSamples = 4096;  ///< a pixel, a multiple of referenceBatches
     double halfWidth = 0.01;      ///< see VerdictOptions
-    StageOptions stage;
+    RendererOptions renderer;
 };
 
 /// Judges graphs on one scene: device, scene and reference are made once.

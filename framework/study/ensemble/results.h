@@ -34,7 +34,7 @@ std::vector<EnsembleRow> readEnsembleRows(const Path& folder);
 /// One configuration and measured frame.
 struct EnsembleCell {
     std::size_t scene = 0, technique = 0;
-    std::vector<StudySetting> knobs;
+    std::vector<Setting> knobs;
     int offset = 0;
     std::vector<std::string> chunks;           ///< names of its chunks
     std::vector<std::string> referenceChunks;  ///< of its reference's

@@ -16,7 +16,7 @@ namespace lodestir {
 struct EnsembleChunk {
     std::size_t scene = 0;
     std::optional<std::size_t> technique;  ///< none: the reference, whose runs are batches of samples
-    std::vector<StudySetting> knobs;
+    std::vector<Setting> knobs;
     int first = 0, count = 0;
 
     bool isSeriesOf(const EnsembleChunk& other) const;  ///< the same but for its runs

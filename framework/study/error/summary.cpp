@@ -89,7 +89,7 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
     return summary;
 }
 
-std::string knobText(const std::vector<StudySetting>& knobs, std::size_t count) {
+std::string knobText(const std::vector<Setting>& knobs, std::size_t count) {
     std::string text;
     for (std::size_t i = 0; i < std::min(count, knobs.size()); ++i) {
         const Json& value = knobs[i].value;

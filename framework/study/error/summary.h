@@ -19,7 +19,7 @@ struct PassSummary {
 
 struct Cell {
     std::size_t scene = 0, technique = 0;
-    std::vector<StudySetting> knobs;
+    std::vector<Setting> knobs;
     int offset = 0;                                     ///< frames after the event
     int seeds = 0;                                      ///< measured so far
     double milliseconds = 0, fastest = 0, slowest = 0;  ///< median and extremes over seeds: a busy machine makes outliers
@@ -45,7 +45,7 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
                   const std::vector<ResultRow>& rows);
 
 /// "spp 4, mode fast": the knobs without their passes; empty where there are none. `count`: only the first so many.
-std::string knobText(const std::vector<StudySetting>& knobs, std::size_t count);
+std::string knobText(const std::vector<Setting>& knobs, std::size_t count);
 
 /// A table for terminals.
 std::string summaryText(const Study& study, const Summary& summary);

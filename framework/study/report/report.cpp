@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <framework/image/metrics.h>
 #include <framework/image/temporal.h>
 #include <framework/study/report/chart.h>
 #include <framework/study/error/halves.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -29,15 +31,31 @@ std::string estimateHtml(const Estimate& e) {
 
 /// A measure as an axis has it, with its unit.
 std::string axisName(const Measure& measure) {
-    const std::string& metric = measure.metric;
-    if (metric == "mse") return measure.name() + ", radiance²";
-    if (metric == "rmse" || metric == "mae") return measure.name() + ", radiance";
-    if (metric == "mape") return measure.name() + ", %";
-    return measure.name() + (metric == "psnr" ? ", dB" : "");
+    const std::string_view unit = scaleOf(measure.metric).unit;
+    return unit.empty() ? measure.name() : fmt::format("{}, {}", measure.name(), unit);
 }
+
+using Cells = std::vector<const Cell*>;
 
 class Report {
 public:
+    struct ChartKind {
+        std::string_view name;
+        std::string (*draw)(const Report& report, const Measure& measure, const Cells& cells);
+        bool once = false;  ///< of no measure; else there is one of each
+    };
+    static std::span<const ChartKind> chartKinds() {
+        static constexpr ChartKind kinds[] = {
+            {"error_vs_time", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, true); }},
+            {"error_vs_rays", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, false); }},
+            {"error_vs_frame", [](const Report& r, const Measure& m, const Cells& c) { return r.measuresFrames() ? r.errorByFrame(m, c, false) : ""; }},
+            {"time_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.timeByPass(c); }, true},
+            {"stability",
+             [](const Report& r, const Measure& m, const Cells& c) { return r.measuresFrames() && scaleOf(m.metric).fromZero ? r.errorByFrame(m, c, true) : ""; }},
+        };
+        return kinds;
+    }
+
     Report(const Study& study, const Summary& summary) : study_(study), summary_(summary), pixels_(double(study.size.x) * study.size.y) {
         for (const std::string& device : summary.devices) device_ += (device_.empty() ? "" : " and ") + device;
         // The frame that charts without a frame axis show: the event's own, else the last.
@@ -108,7 +126,7 @@ private:
         return html + "</div>\n" + table(cells);
     }
 
-    std::string table(const std::vector<const Cell*>& cells) const {
+    std::string table(const Cells& cells) const {
         std::string html =
             "<table><tr><th>technique</th><th>frame</th><th>seeds</th><th>ms</th><th>fastest – slowest</th><th>rays a pixel</th>";
         for (const Measure& measure : measuresOf(study_)) html += fmt::format("<th>{}</th>", escapeHtml(measure.name()));
@@ -131,20 +149,15 @@ private:
                    : html + fmt::format("<p class=\"note\">Noise of the reference itself, taken out above: {}.</p>\n", escapeHtml(noise));
     }
 
-    std::string charts(const std::string& name, const std::vector<const Cell*>& cells) const {
-        if (name == "time_by_pass") return timeByPass(cells);
+    std::string charts(const std::string& name, const Cells& cells) const {
+        const auto kind = std::ranges::find(chartKinds(), name, &ChartKind::name);
+        if (kind->once) return (kind->draw)(*this, {}, cells);
         std::string html;
-        for (const Measure& measure : measuresOf(study_)) {
-            if (name == "error_vs_time") html += errorAlong(measure, cells, true);
-            if (name == "error_vs_rays") html += errorAlong(measure, cells, false);
-            if (name == "error_vs_frame" && study_.measure.size() > 1) html += errorByFrame(measure, cells, false);
-            if (name == "stability" && study_.measure.size() > 1 && isError(measure)) html += errorByFrame(measure, cells, true);
-        }
+        for (const Measure& measure : measuresOf(study_)) html += (kind->draw)(*this, measure, cells);
         return html;
     }
 
-    /// Never negative but for noise, and smaller is better: fit for a logarithmic axis.
-    static bool isError(const Measure& measure) { return measure.metric != "bias" && measure.metric != "psnr" && !measure.metric.ends_with("ssim"); }
+    bool measuresFrames() const { return study_.measure.size() > 1; }
 
     static ChartSeries& seriesNamed(std::vector<ChartSeries>& all, const std::string& name) {
         const auto found = std::ranges::find(all, name, &ChartSeries::name);
@@ -163,13 +176,13 @@ private:
     }
 
     /// What a metric of sequences says first is said of the frame after the first.
-    int shownOf(const std::string& metric, const std::vector<const Cell*>& cells) const {
+    int shownOf(const std::string& metric, const Cells& cells) const {
         const auto has = [&](const Cell* cell) { return cell->offset >= shown_ && cell->metrics.contains(metric); };
         const auto found = std::ranges::find_if(cells, has);
         return found == cells.end() ? shown_ : (*found)->offset;
     }
 
-    std::string errorAlong(const Measure& measure, const std::vector<const Cell*>& cells, bool time) const {
+    std::string errorAlong(const Measure& measure, const Cells& cells, bool time) const {
         const std::string metric = measure.name();
         const int shown = shownOf(metric, cells);
         LineChart chart{.title = metric + (time ? " against time" : " against rays") +
@@ -177,7 +190,7 @@ private:
                         .xLabel = time ? "time of the frame, ms (" + device_ + ")" : "rays a pixel",
                         .yLabel = axisName(measure),
                         .logX = true,
-                        .logY = isError(measure)};
+                        .logY = scaleOf(measure.metric).fromZero};
         for (const Cell* cell : cells) {
             if (cell->offset != shown || !cell->metrics.contains(metric)) continue;
             const Estimate& e = cell->metrics.at(metric);
@@ -191,7 +204,7 @@ private:
     }
 
     /// `relative`: the error as a multiple of the first measured frame's, which shows what an event does to a technique whatever its level.
-    std::string errorByFrame(const Measure& measure, const std::vector<const Cell*>& cells, bool relative) const {
+    std::string errorByFrame(const Measure& measure, const Cells& cells, bool relative) const {
         const std::string metric = measure.name();
         const auto known = std::ranges::find_if(cells, [&](const Cell* cell) { return cell->metrics.contains(metric); });
         const int start = known == cells.end() ? study_.measure.front() : (*known)->offset;
@@ -200,7 +213,7 @@ private:
                         .xLabel = "frame, counted from the event",
                         .yLabel = relative ? metric + ", ratio" : axisName(measure),
                         .logX = false,
-                        .logY = isError(measure)};
+                        .logY = scaleOf(measure.metric).fromZero};
         const Cell* first = nullptr;
         for (const Cell* cell : cells) {
             if (cell->offset == start) first = cell;
@@ -213,7 +226,7 @@ private:
         return drawLines(chart);
     }
 
-    std::string timeByPass(const std::vector<const Cell*>& cells) const {
+    std::string timeByPass(const Cells& cells) const {
         std::vector<Bar> bars;
         for (const Cell* cell : cells) {
             if (cell->offset != shown_) continue;
@@ -233,6 +246,12 @@ private:
 };
 
 }  // namespace
+
+std::vector<std::string> chartNames() {
+    std::vector<std::string> names;
+    for (const auto& kind : Report::chartKinds()) names.emplace_back(kind.name);
+    return names;
+}
 
 std::string reportHtml(const Study& study, const Summary& summary) { return Report(study, summary).page(); }
 

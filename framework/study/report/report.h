@@ -4,8 +4,12 @@
 #include <framework/study/error/summary.h>
 
 #include <string>
+#include <vector>
 
 namespace lodestir {
+
+/// The charts that a study may ask for.
+std::vector<std::string> chartNames();
 
 /// The page.
 std::string reportHtml(const Study& study, const Summary& summary);

@@ -28,14 +28,16 @@ struct LodSelect final : Pass {
         const Mode chosen = modeOf(scene.lod.mode);
         std::vector<std::uint32_t> levels(scene.instances.size(), 0);
         if (chosen == Mode::schedule) levels = scheduledLevels(scene, float(frame.index()) + float(int(lead)));
-        levels.push_back(0);
+        const auto count = std::uint32_t(levels.size());
+        levels.push_back(0);  // levelsChanged
         const Memory memory = frame.upload(levels, "levels");
         World made;
         std::memcpy(&made, frame.valueOf(world).data(), sizeof made);
         made.levels = memory.address;
+        made.levelsChanged = made.levels + count * sizeof(std::uint32_t);
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
-        frame.dispatch(shader, {std::uint32_t(levels.size() - 1), 1}, {std::uint32_t(chosen), std::bit_cast<std::uint32_t>(limit)});
+        frame.dispatch(shader, {count, 1}, {std::uint32_t(chosen), std::bit_cast<std::uint32_t>(limit)});
     }
 
 private:

@@ -12,7 +12,7 @@ struct Path {
 };
 
 #if HAS_hits && HAS_worldPrev
-bool switchesLevels(World w) { return historyValid() && w.levels.at[w.instanceCount] != 0; }
+bool switchesLevels(World w) { return historyValid() && w.levelsChanged.at[0] != 0; }
 bool switched(World w, PrimaryHit h) { return h.primitive != NONE && w.levels.at[h.instance] != worldPrev().levels.at[h.instance]; }
 uint mostTrees() { return max(uint(params.candidates), uint(params.switchCandidates)); }
 #else
