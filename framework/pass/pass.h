@@ -11,6 +11,7 @@
 // The shader starts with #include "pass.glsl", which is made from this declaration.
 #pragma once
 #include <framework/core/error.h>  // what execute() throws
+#include <framework/pass/bundle.h>
 #include <framework/pass/parameter.h>
 #include <framework/pass/port.h>
 #include <framework/shaders/trace/ray.h>
@@ -23,6 +24,9 @@
 #include <vector>
 
 namespace lodestir {
+
+/// lod_select takes a World and makes one.
+template <> inline constexpr bool isChained<World> = true;
 
 struct Scene;
 namespace gpu {
@@ -42,6 +46,7 @@ public:
     virtual glm::uvec2 sizeOf(const Port& port) const = 0;      ///< of an image, pixels
     virtual std::uint32_t countOf(const Port& port) const = 0;  ///< elements of a buffer
     virtual bool isBound(const Port& port) const = 0;
+    bool isBound(const BundlePort& port) const { return isBound(port.members.front()); }
     virtual std::span<const std::byte> valueOf(const Port& port) const = 0;  ///< the struct that a wired handle input holds
     /// Runs a shader of this pass's folder once for each element of `extent` (pixels, or {n, 1}). A shader that includes
     /// "trace/driver.glsl" is spread as its tracing body likes best. `arguments`: up to 4 words, argument(i) in the shader.
@@ -83,6 +88,9 @@ public:
 /// Declares that a pass with "off": true hands `in` through as `out`.
 struct LODESTIR_API PassThrough {
     PassThrough(Pass* pass, const Port& in, const Port& out) { pass->bypasses.push_back({&in, &out}); }
+    template <Bundle B> PassThrough(Pass* pass, const In<B>& in, const Out<B>& out) {
+        for (std::size_t i = 0; i < in.members.size(); ++i) pass->bypasses.push_back({&in.members[i], &out.members[i]});
+    }
 };
 
 /// One pass of a plugin library, linked into the library's own list.

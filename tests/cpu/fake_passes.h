@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/graph/graph.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,35 @@ struct Follow final : Pass {
     In<Ray>    agreed{this, "agreed", "what others agreed on"};
     Out<Image> image{this, "image", "made by it", Format::rgba16f};
 };
+/// A bundle of the tests' own, and one that claims its name.
+struct Particles {
+    static constexpr std::string_view name = "Particles";
+    static constexpr std::array members{bundled<vec4>("places", "where each is"), bundled<float>("masses", "how heavy")};
+};
+struct OtherParticles {
+    static constexpr std::string_view name = "Particles";
+    static constexpr std::array members{bundled<vec4>("places", "where each is")};
+};
+struct Emit final : Pass {
+    Out<Particles> particles{this, "particles", "new ones", Count::fixed(300)};
+    Out<Image>     light{this, "light", "that they send", Format::rgba16f};
+    Out<Image>     smoke{this, "smoke", "that they leave", Format::rgba16f};
+};
+struct Drift final : Pass {
+    In<Particles>      particles{this, "particles", "before"};
+    In<Particles>      past{this, "past", "last frame's", Need::optional};
+    Out<Particles>     particlesOut{this, "particles", "after", Count::likePort("particles")};
+    Scratch<Particles> between{this, "between", "in between", Count::likePort("past")};
+    PassThrough        bypass{this, particles, particlesOut};
+};
+struct Weigh final : Pass {
+    In<Buffer<float>> masses{this, "masses", "how heavy each is"};
+    Out<Image>        sum{this, "sum", "how heavy all are", Format::r32f};
+};
+struct CountOthers final : Pass {
+    In<OtherParticles> particles{this, "particles", "of another kind"};
+    Out<Image>         count{this, "count", "how many", Format::r32f};
+};
 struct BadNames final : Pass {
     In<Image>  input{this, "input", "a reserved word"};
     Out<Image> pixel{this, "pixel", "a name of pass.glsl", Format::rgba16f, {.like = "nobody"}};
@@ -126,6 +156,10 @@ inline void addTo(PluginLibraries& libraries) {
     libraries.addBuiltIn("sharpen", plugin<Sharpen>("Sharpen"));
     libraries.addBuiltIn("agree_on", plugin<AgreeOn>("AgreeOn"));
     libraries.addBuiltIn("follow", plugin<Follow>("Follow"));
+    libraries.addBuiltIn("emit", plugin<Emit>("Emit"));
+    libraries.addBuiltIn("drift", plugin<Drift>("Drift"));
+    libraries.addBuiltIn("weigh", plugin<Weigh>("Weigh"));
+    libraries.addBuiltIn("count_others", plugin<CountOthers>("CountOthers"));
     libraries.addBuiltIn("bad_names", plugin<BadNames>("BadNames"));
 }
 

@@ -8,8 +8,8 @@
 #include "restir/neighbours.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
+#include "restir/suffix.glsl"
 #include "lod/vertex_mapping.glsl"
-#include "world/same_scene.glsl"
 
 const uint SCATTER = 0, SCATTER_BACK = 1, GATHER = 2, GATHER_BACK = 3;
 
@@ -104,11 +104,11 @@ bool mapPath(inout Path p, World from, World to, uint item, PrimaryHit centre, i
 }
 
 void begin(inout Path p, ivec2 pixel) {
-    p.own = reservoirs(place(pixel));
-    p.ownHit = samples(place(pixel));
+    p.own = pathsReservoirs(place(pixel));
+    p.ownHit = pathsSamples(place(pixel));
     p.before = pixelBefore(pixel, motion(pixel));
     p.hasBefore = inside(p.before);
-    p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, worldPrev()));
+    p.refresh = walksSuffix(scene, worldPrev());
     p.origins = Origins(0, 0, 0, 0);
 }
 
@@ -122,11 +122,11 @@ void finish(inout Path p, ivec2 pixel, uint item) {
         if (good && item == SCATTER) {
             landing.target = p.target;
             landing.order = atomicAdd(OutCounts(passBlock().counts.address).at[p.target], 1);
-            storeShifted(place(pixel), path);
+            storeShiftedReservoirs(place(pixel), path);
             storeShiftedSamples(place(pixel), p.shift.hit);
         } else if (good) {
             landing.target = place(pixel);
-            storeGathered(place(pixel), path);
+            storeGatheredReservoirs(place(pixel), path);
             storeGatheredSamples(place(pixel), p.shift.hit);
         }
         if (item == SCATTER) storeLandings(place(pixel), landing);
@@ -148,7 +148,7 @@ bool start(inout Path p, World to, ivec2 pixel, uint item) {
     Reservoir path = p.own;
     SampleHit hit = p.ownHit;
     if (item != SCATTER_BACK) {
-        Reservoir old = history(place(past));
+        Reservoir old = historyReservoirs(place(past));
         p.confidence = capped(old);
         if (p.confidence == 0) return false;
         if (!back) {
@@ -171,7 +171,7 @@ bool start(inout Path p, World to, ivec2 pixel, uint item) {
     ivec2 landing;
     if (!project(to, pixel, frameSize(), first, cameraRay(from, filmOf(pixel, hit.hit.film, frameSize()), hit.hit.lens).direction, landing)) return false;
     if (back) {
-        p.confidence = capped(history(place(landing)));
+        p.confidence = capped(historyReservoirs(place(landing)));
         if (p.confidence == 0) return false;
     }
     p.target = place(landing);

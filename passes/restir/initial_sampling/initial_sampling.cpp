@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The paths of this frame: a tree a pixel, resampled into one reservoir.
 #include <framework/pass/pass.h>
-#include <passes/restir/reservoir.h>
+#include <passes/restir/paths.h>
 #include <passes/restir/rules.h>
-#include <passes/restir/sample_hit.h>
 
 using namespace lodestir;
 
@@ -13,8 +12,7 @@ struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres, which save the camera rays where pixelCentre is on", Need::optional};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
-    Out<Buffer<Reservoir>> reservoirs{this, "reservoirs", "one path of each pixel with its weight; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
-    Out<Buffer<SampleHit>> samples{this, "samples", "where each path begins", Count::perPixel()};
+    Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
     Param<int>             bounces{this, "bounces", 4, {0, 30}, "most scatterings of a path; 1 is direct light only"};
     Param<int>             segmentsMin{this, "segmentsMin", 1, {1, 31}, "shorter paths are left to other passes: 2 leaves out light that the camera sees directly, 3 direct light as well"};

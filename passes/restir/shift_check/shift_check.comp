@@ -6,7 +6,8 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
-#include "world/same_scene.glsl"
+#include "restir/similar_pixels.glsl"
+#include "restir/suffix.glsl"
 
 struct Path {
     Shift shift;
@@ -25,7 +26,7 @@ uint place(ivec2 p) { return pixelIndex(p); }
 
 #if HAS_history
 const bool BETWEEN_FRAMES = true;
-Reservoir partnerReservoir(ivec2 p) { return history(place(p)); }
+Reservoir partnerReservoir(ivec2 p) { return historyReservoirs(place(p)); }
 SampleHit partnerSample(ivec2 p) { return historySamples(place(p)); }
 PrimaryHit partnerCentre(ivec2 p) { return hitsPrev(place(p)); }
 bool mayPair() { return historyValid(); }
@@ -34,8 +35,8 @@ ivec2 choosePartner(ivec2 pixel) { return pixelBefore(pixel, motion(pixel)); }
 bool alike(ivec2 pixel, ivec2 q) { return true; }
 #else
 const bool BETWEEN_FRAMES = false;
-Reservoir partnerReservoir(ivec2 p) { return reservoirs(place(p)); }
-SampleHit partnerSample(ivec2 p) { return samples(place(p)); }
+Reservoir partnerReservoir(ivec2 p) { return pathsReservoirs(place(p)); }
+SampleHit partnerSample(ivec2 p) { return pathsSamples(place(p)); }
 PrimaryHit partnerCentre(ivec2 p) { return hits(place(p)); }
 bool mayPair() { return true; }
 World partnerWorld() { return scene; }
@@ -43,7 +44,7 @@ ivec2 choosePartner(ivec2 pixel) {
     return pixelInDisk(pixel, params.radius, random2(resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt()), 0, RANDOM_FREE));
 }
 bool alike(ivec2 pixel, ivec2 q) {
-    return q != pixel && similarViews(pixelView(scene, hits(place(pixel))), pixelView(scene, hits(place(q))), params.normal, params.depth);
+    return q != pixel && similarPixels(pixelView(scene, hits(place(pixel))), pixelView(scene, hits(place(q))));
 }
 #endif
 
@@ -62,7 +63,7 @@ void begin(inout Path p, ivec2 pixel) {
     p.partner = choosePartner(pixel);
     if (!inside(p.partner) || !alike(pixel, p.partner)) return;
     p.paired = true;
-    p.refresh = params.suffix == suffix_walked || (BETWEEN_FRAMES && params.suffix == suffix_automatic && !sameScene(scene, partnerWorld()));
+    p.refresh = walksSuffix(scene, partnerWorld());
 }
 
 // Is it the path that set out? F and G are compared elsewhere.
@@ -135,9 +136,9 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     SampleHit hit;
     if (item == 0 || item == 2) {
         bool own = item == 2;
-        p.path = own ? reservoirs(place(pixel)) : partnerReservoir(p.partner);
-        p.hit = own ? samples(place(pixel)) : partnerSample(p.partner);
-        p.confidence = own ? confidence(partnerReservoir(p.partner)) : confidence(reservoirs(place(pixel)));
+        p.path = own ? pathsReservoirs(place(pixel)) : partnerReservoir(p.partner);
+        p.hit = own ? pathsSamples(place(pixel)) : partnerSample(p.partner);
+        p.confidence = own ? confidence(partnerReservoir(p.partner)) : confidence(pathsReservoirs(place(pixel)));
         if (!holdsPath(p.path)) {
             p.shift.jacobian = 0;
             return false;

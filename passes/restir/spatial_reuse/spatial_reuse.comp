@@ -6,6 +6,7 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
+#include "restir/similar_pixels.glsl"
 
 struct Path {
     Shift shift;
@@ -28,12 +29,12 @@ World scene = world();
 uint place(ivec2 p) { return pixelIndex(p); }
 
 Reservoir inputReservoir(ivec2 p) {
-    if (argument(1) == 0) return reservoirs(place(p));
-    return argument(1) == 1 ? madeReservoirs(place(p)) : reservoirsBetween(place(p));
+    if (argument(1) == 0) return pathsReservoirs(place(p));
+    return argument(1) == 1 ? madePathsReservoirs(place(p)) : betweenReservoirs(place(p));
 }
 SampleHit inputSample(ivec2 p) {
-    if (argument(1) == 0) return samples(place(p));
-    return argument(1) == 1 ? madeSamples(place(p)) : samplesBetween(place(p));
+    if (argument(1) == 0) return pathsSamples(place(p));
+    return argument(1) == 1 ? madePathsSamples(place(p)) : betweenSamples(place(p));
 }
 
 uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + argument(0)); }
@@ -42,7 +43,7 @@ uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(),
 ivec2 neighbourOf(ivec2 pixel, PixelView mine, uint i) {
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
     if (!inside(q)) return pixel;
-    return similarViews(mine, pixelView(scene, hits(place(q))), params.normal, params.depth) ? q : pixel;
+    return similarPixels(mine, pixelView(scene, hits(place(q)))) ? q : pixel;
 }
 
 void begin(inout Path p, ivec2 pixel) {
@@ -117,11 +118,11 @@ void pathEnd(Path p, World w, ivec2 pixel) {
     p.kept.W = contributionWeight(p.ris, target(p.kept));
     setConfidence(p.kept, p.pairs.canonical + p.pairs.neighbours);
     if (argument(2) != 0) {
-        storeReservoirs(place(pixel), p.kept);
-        storeSamples(place(pixel), p.keptHit);
+        storePathsReservoirs(place(pixel), p.kept);
+        storePathsSamples(place(pixel), p.keptHit);
     } else {
-        storeReservoirsBetween(place(pixel), p.kept);
-        storeSamplesBetween(place(pixel), p.keptHit);
+        storeBetweenReservoirs(place(pixel), p.kept);
+        storeBetweenSamples(place(pixel), p.keptHit);
     }
     if (argument(0) + 1 == uint(params.rounds)) storeColor(pixel, vec4(p.radiance, 1));
 }

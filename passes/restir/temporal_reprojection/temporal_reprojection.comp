@@ -6,7 +6,8 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
-#include "world/same_scene.glsl"
+#include "restir/similar_pixels.glsl"
+#include "restir/suffix.glsl"
 
 struct Path {
     Shift shift;
@@ -29,8 +30,8 @@ World pathWorld(uint item) {
 }
 
 void begin(inout Path p, ivec2 pixel) {
-    p.own = reservoirs(place(pixel));
-    p.ownHit = samples(place(pixel));
+    p.own = pathsReservoirs(place(pixel));
+    p.ownHit = pathsSamples(place(pixel));
     p.before = pixelBefore(pixel, motion(pixel));
     p.confidence = 0;
     p.jacobian = 0;
@@ -38,12 +39,12 @@ void begin(inout Path p, ivec2 pixel) {
     if (!inside(p.before)) return;
     World last = worldPrev();
     PixelView here = pixelView(scene, hits(place(pixel))), there = pixelView(last, hitsPrev(place(p.before)));
-    if (params.depth < 1e6 && !similarViews(here, there, params.normal, params.depth)) return;
-    p.past = history(place(p.before));
+    if (params.depth < 1e6 && !similarPixels(here, there)) return;
+    p.past = historyReservoirs(place(p.before));
     p.pastHit = historySamples(place(p.before));
     p.pastTarget = target(p.past);
     p.confidence = cappedConfidence(confidence(p.past), params.cap * confidence(p.own));
-    p.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(scene, last));
+    p.refresh = walksSuffix(scene, last);
 }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
@@ -82,8 +83,8 @@ void pathEnd(Path p, World w, ivec2 pixel) {
         kept.W = contributionWeight(ris, target(kept));
         setConfidence(kept, mine + p.confidence);
     }
-    storeReservoirs(place(pixel), kept);
-    storeSamples(place(pixel), keptHit);
+    storePathsReservoirs(place(pixel), kept);
+    storePathsSamples(place(pixel), keptHit);
 }
 
 #include "trace/driver.glsl"
