@@ -163,8 +163,8 @@ private:
             return;
         }
         const Wire output = edge.fromPort.empty() ? onlyOutputFor(*input, fromNode, edge.where) : outputNamed(fromNode, edge.fromPort, edge.where);
-        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {}.{} is ", node.name, input->name(), input->typeText(),
-                                              fromNode.name, output.name());
+        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {}.{}{} is ", node.name, input->name(), input->typeText(),
+                                              fromNode.name, output.name(), edge.prev ? "@prev" : "");
         if (!input->fits(output)) throw Error(edge.where, start + output.typeText());
         if (input->membersText() != output.membersText()) {
             throw Error(edge.where, start + fmt::format("a {} of other members: {}, not {}", output.typeText(), output.membersText(), input->membersText()),

@@ -129,7 +129,9 @@ Wire anyWire(const GraphNode& node, const std::string& name, const Where& where)
     if (wire.first < 0) wire = findWire(*node.pass, name, any);
     if (wire.first >= 0) return wire;
     const std::vector<Wire> all = withMembers(wiresOf(*node.pass));
-    throw Error(where, fmt::format("pass \"{}\" has no port \"{}\"", node.name, name), didYouMean(name, namesOf(all)));
+    const auto member = std::ranges::find_if(all, [&](const Wire& w) { return w.name().ends_with("." + name); });
+    throw Error(where, fmt::format("pass \"{}\" has no port \"{}\"", node.name, name),
+                member == all.end() ? didYouMean(name, namesOf(all)) : fmt::format("did you mean \"{}\"?", member->name()));
 }
 
 /// The port whose content a look at `source` shows: an input is what it is wired to, a pass that is off is what it hands through.

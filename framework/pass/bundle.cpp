@@ -15,8 +15,8 @@ BundlePort::Member::Member(Pass* pass, const BundlePort& owner, const BundleMemb
     bundle = &owner;
 }
 
-BundlePort::BundlePort(Pass* pass, std::string_view name_, std::string_view doc_, std::string_view type_, std::span<const BundleMember> members_, Port::Role role,
-                       Count count, bool optional)
+BundlePort::BundlePort(Pass* pass, std::string_view name_, std::string_view doc_, std::string_view type_,
+                       std::span<const BundleMember> members_, Port::Role role, Count count, bool optional)
     : name(name_), doc(doc_), type(type_) {
     for (const BundleMember& member : members_) members.emplace_back(pass, *this, member, role, count, optional);
 }

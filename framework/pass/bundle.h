@@ -3,7 +3,8 @@
 //
 //     struct Paths {
 //         static constexpr std::string_view name = "Paths";
-//         static constexpr std::array members{bundled<Reservoir>("reservoirs", "the path with its weight"), bundled<SampleHit>("samples", "where it begins")};
+//         static constexpr std::array members{bundled<Reservoir>("reservoirs", "the path with its weight"),
+//                                             bundled<SampleHit>("samples", "where it begins")};
 //     };
 //
 // and passes name like any type of port: In<Paths> paths{this, "paths", "this frame's path of each pixel"}. A graph wires "paths". Each member is a port
@@ -11,6 +12,7 @@
 #pragma once
 #include <framework/pass/port.h>
 
+#include <array>
 #include <concepts>
 #include <deque>
 #include <span>
@@ -51,8 +53,8 @@ public:
     BundlePort& operator=(const BundlePort&) = delete;
 
 protected:
-    BundlePort(Pass* pass, std::string_view name, std::string_view doc, std::string_view type, std::span<const BundleMember> members, Port::Role role, Count count,
-               bool optional = false);
+    BundlePort(Pass* pass, std::string_view name, std::string_view doc, std::string_view type, std::span<const BundleMember> members,
+               Port::Role role, Count count, bool optional = false);
 };
 
 template <Bundle B> struct In<B> : BundlePort {

@@ -8,7 +8,8 @@
 //     };
 //     LODESTIR_PASS(Bloom, "bloom.comp", "Gaussian of the highlights, at half resolution.")
 //
-// The shader starts with #include "pass.glsl", which is made from this declaration.
+// The shader starts with #include "pass.glsl", which is made from this declaration. Buffers that always travel together are one port (bundle.h);
+// parameters that passes share are one member (parameter.h).
 #pragma once
 #include <framework/core/error.h>  // what execute() throws
 #include <framework/pass/bundle.h>

@@ -10,7 +10,8 @@ namespace lodestir {
 /// A path of each pixel.
 struct Paths {
     static constexpr std::string_view name = "Paths";
-    static constexpr std::array members{bundled<Reservoir>("reservoirs", "the path with its weight"), bundled<SampleHit>("samples", "where it begins")};
+    static constexpr std::array members{bundled<Reservoir>("reservoirs", "the path with its weight"),
+                                        bundled<SampleHit>("samples", "where it begins")};
 };
 
 }  // namespace lodestir

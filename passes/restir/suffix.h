@@ -11,8 +11,8 @@ struct SuffixRule {
     Param<Suffix> suffix;
     explicit SuffixRule(Pass* pass)
         : suffix{pass, "suffix", Suffix::automatic, {"automatic", "kept", "walked"},
-                 "what follows the reconnection vertex of a path that goes between frames: walked anew where anything but the camera changed, always kept (biased where "
-                 "things change), always walked anew"} {}
+                 "what follows the reconnection vertex of a path that goes between frames: walked anew where anything but the camera changed, always kept "
+                 "(biased where things change), always walked anew"} {}
 };
 
 }  // namespace lodestir

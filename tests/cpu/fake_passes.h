@@ -7,6 +7,17 @@
 #include <string>
 #include <vector>
 
+namespace lodestir {
+
+/// A struct that passes hand on, as they do World.
+struct Tally {
+    uint count;
+};
+
+}  // namespace lodestir
+LODESTIR_SHARED(Tally, "")
+template <> inline constexpr bool lodestir::isChained<lodestir::Tally> = true;
+
 namespace lodestir::fake {
 
 struct SceneNode final : Pass {
@@ -127,6 +138,18 @@ struct CountOthers final : Pass {
     In<OtherParticles> particles{this, "particles", "of another kind"};
     Out<Image>         count{this, "count", "how many", Format::r32f};
 };
+struct StartTally final : Pass {
+    Out<Tally> tally{this, "tally", "nothing counted"};
+};
+struct AddToTally final : Pass {
+    In<Tally>  tally{this, "tally", "so far"};
+    Out<Tally> tallyOut{this, "tally", "with one more"};
+};
+struct ShowTally final : Pass {
+    In<Tally>  tally{this, "tally", "in the end"};
+    In<Tally>  tallyPrev{this, "tallyPrev", "last frame's"};
+    Out<Image> image{this, "image", "of both", Format::r32f};
+};
 struct BadNames final : Pass {
     In<Image>  input{this, "input", "a reserved word"};
     Out<Image> pixel{this, "pixel", "a name of pass.glsl", Format::rgba16f, {.like = "nobody"}};
@@ -160,6 +183,9 @@ inline void addTo(PluginLibraries& libraries) {
     libraries.addBuiltIn("drift", plugin<Drift>("Drift"));
     libraries.addBuiltIn("weigh", plugin<Weigh>("Weigh"));
     libraries.addBuiltIn("count_others", plugin<CountOthers>("CountOthers"));
+    libraries.addBuiltIn("start_tally", plugin<StartTally>("StartTally"));
+    libraries.addBuiltIn("add_to_tally", plugin<AddToTally>("AddToTally"));
+    libraries.addBuiltIn("show_tally", plugin<ShowTally>("ShowTally"));
     libraries.addBuiltIn("bad_names", plugin<BadNames>("BadNames"));
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The paths of this frame: a tree a pixel, resampled into one reservoir.
 #include <framework/pass/pass.h>
+#include <passes/basic/light_technique.h>
 #include <passes/restir/paths.h>
 #include <passes/restir/rules.h>
 
 using namespace lodestir;
-
-enum class Technique { both, light, bsdf };
 
 struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
@@ -19,9 +18,7 @@ struct InitialSampling final : Pass {
     Param<int>             candidates{this, "candidates", 1, {1, 256}, "path trees a pixel and frame"};
     Param<int>             switchCandidates{this, "switchCandidates", 1, {1, 256}, "path trees instead, in the one frame in which the object that a pixel's centre sees takes another level: there history knows the old one only"};
     Param<int>             lightCandidates{this, "lightCandidates", 1, {1, 256}, "lights that the first vertex chooses its light sample from"};
-    Param<Technique>       technique{this, "technique", Technique::both, {"both", "light", "bsdf"},
-                                     "how light is found: light sampling and BSDF sampling joined by the balance heuristic, or one of them alone "
-                                     "(lights without extent are always sampled)"};
+    LightTechnique         found{this};
     Param<bool>            roulette{this, "roulette", true, "Russian roulette on the throughput, outside the integrand (Lin et al. 2026, section 6.2.4)"};
     Param<bool>            pixelCentre{this, "pixelCentre", false, "paths through the centre of each pixel; else the place inside the pixel belongs to the path"};
     Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes on both sides of a connection"};
@@ -29,7 +26,7 @@ struct InitialSampling final : Pass {
     Param<bool>            forcedNee{this, "forcedNee", true, "lights found by light sampling are always connected, never replayed (Lin et al. 2026, section 6.2.3)"};
 
     void execute(Frame& frame) override {
-        const ShiftRules agreed{roughness, distance, forcedNee, std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(technique))};
+        const ShiftRules agreed{roughness, distance, forcedNee, std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique))};
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
         frame.dispatch(shader, frame.size());
     }
