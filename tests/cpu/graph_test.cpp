@@ -91,8 +91,8 @@ TEST(Graph, BindsWhateverIsHandedOnLikeAWorld) {
     EXPECT_EQ(inputOf(g, "t", "tally"), "b.tally");
     EXPECT_EQ(inputOf(g, "t", "tallyPrev"), "b.tally@prev");
     EXPECT_EQ(complaint([&] { workshop.build(R"("t": {"type": "show_tally", "in": {"tallyPrev": "t@prev"}})", "t"); }),
-              "test.json:1:110: pass \"t\": \"tallyPrev\" takes Tally, but t.image@prev is Image\n"
-              "test.json:1:58: pass \"t\": input \"tally\" (Tally: in the end) is not wired; no pass of the graph makes one");
+              "test.json:1:56: pass \"t\": input \"tally\" (Tally: in the end) is not wired; no pass of the graph makes one\n"
+              "test.json:1:104: pass \"t\": \"tallyPrev\" takes Tally, but t.image@prev is Image");
 }
 
 TEST(Graph, AnInputAndAnOutputMayShareTheirName) {
