@@ -100,11 +100,11 @@ Json closedObject() {
 Json passRule(const PassType& type) {
     Json in = closedObject(), set = closedObject(), required = Json::array();
     for (const Wire& wire : wiresOf(*type.pass, [](const Port& port) { return port.isInput(); })) {
-        const bool optional = wire.port().optional, isFound = wire.port().type.kind == PortType::Kind::handle;
+        const bool optional = wire.port().optional, bindsItself = wire.port().type.kind == PortType::Kind::handle;
         Json& edge = in["properties"][wire.name()];
         edge["$ref"] = "#/$defs/source";
         edge["description"] = fmt::format("{}: {}{}", wire.typeText(), wire.doc(), optional ? " (optional)" : "");
-        if (!optional && !isFound) required.push(std::string(wire.name()));
+        if (!optional && !bindsItself) required.push(std::string(wire.name()));
     }
     const bool needsInputs = !required.items().empty();
     if (needsInputs) in["required"] = std::move(required);
