@@ -31,7 +31,7 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
     for (const char* file :
          {"lib/liblodestir.so", "lib/lodestir/passes/basic/path_tracer/libpath_tracer.so", "lib/lodestir/passes/basic/path_tracer/path_tracer.comp",
           "share/lodestir/shaders/trace/trace.glsl", "share/lodestir/graphs/restir_pt.json", "share/lodestir/scenes/rock.glb",
-          "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/docs/files.md", "include/lodestir/framework/graph/pass.h"})
+          "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/docs/files.md", "include/lodestir/framework/pass/pass.h"})
         EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
 
     // It uses what is beside it, not the tree that it was built in.
