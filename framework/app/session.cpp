@@ -5,8 +5,10 @@
 #include <framework/app/validators.h>
 #include <framework/core/log.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -60,7 +62,7 @@ void SessionOptions::addTo(Command& command) {
 Session::Session(const SessionOptions& options, SessionParts parts) : renderer_(options.renderer, parts.device), scene_(std::move(parts.scene)) {
     graph_ = std::make_unique<Graph>(renderer_.build(options.graph, options.changes));
     if (parts.adjust) parts.adjust(*graph_);
-    for (const std::string& name : options.dumps) dumps_.push_back(findSource(*graph_, name, {"--dump", 0, 0}));
+    for (const std::string& name : options.dumps) std::ranges::copy(findSources(*graph_, name, {"--dump", 0, 0}), std::back_inserter(dumps_));
     if (graph_->description.scene.empty()) throw Error({graph_->description.file.string(), 0, 0}, "the graph names no scene", "add \"scene\" or give --scene");
     if (!scene_ || scene_->file != graph_->description.scene) {
         const auto start = std::chrono::steady_clock::now();

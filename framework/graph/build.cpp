@@ -16,9 +16,9 @@ namespace lodestir {
 namespace {
 
 constexpr const char* sceneName = "scene";  // the node, and its type, that stand for the scene file
-constexpr std::string_view worldType = "World";
 
-bool isWorld(const Port& port) { return port.type.kind == PortType::Kind::handle && port.type.name == worldType; }
+bool isWorld(const Port& port) { return port.type.isSame(PortTypeOf<World>::value); }  // what the scene makes
+bool isInput(const Port& port) { return port.isInput(); }
 
 class GraphBuilder {
 public:
@@ -34,7 +34,7 @@ public:
             setParameters(i);
             bindEdges(i);
         }
-        bindWorlds();
+        bindChained();
         bindSingleHandles();
         for (std::size_t i = 0; i < nodes().size(); ++i) checkInputs(i);
         bypassOffNodes();
@@ -93,6 +93,7 @@ private:
         for (const NodeDescription* described : descriptions_) {
             if (std::ranges::any_of(described->edges, namesScene)) return true;
         }
+        const auto makesWorld = [](const GraphNode& node) { return makes(node, PortTypeOf<World>::value); };
         bool produced = false;  // by a pass further up
         const bool producedAnywhere = std::ranges::any_of(nodes(), makesWorld);
         for (std::size_t i = 0; i < nodes().size(); ++i) {
@@ -103,8 +104,8 @@ private:
         return false;
     }
 
-    static bool makesWorld(const GraphNode& node) {
-        return node.pass && std::ranges::any_of(node.pass->ports, [](const Port* port) { return isWorld(*port) && isMade(*port); });
+    static bool makes(const GraphNode& node, const PortType& type) {
+        return node.pass && std::ranges::any_of(node.pass->ports, [&](const Port* port) { return isMade(*port) && port->type.isSame(type); });
     }
 
     bool hasFreeWorldInput(std::size_t i) {
@@ -138,37 +139,42 @@ private:
 
     void bindEdge(std::size_t i, const EdgeDescription& edge) {
         GraphNode& node = nodes()[i];
-        const auto isInput = [](const Port& port) { return port.isInput(); };
-        const int port = findPort(*node.pass, edge.port, isInput);
-        if (port < 0) {
-            const std::vector<std::string> inputs = portNames(*node.pass, isInput);
-            problems_.add(edge.portWhere, fmt::format("pass \"{}\": no input \"{}\" on {}", node.name, edge.port, node.type),
-                          inputs.empty() ? "it has none" : didYouMean(edge.port, inputs));
+        const std::vector<Wire> inputs = wiresOf(*node.pass, isInput);
+        const auto input = std::ranges::find(inputs, edge.port, &Wire::name);
+        if (input != inputs.end()) {
+            wired_.push_back({int(i), input->first});  // even if its source turns out wrong: one mistake, one message
         } else {
-            wired_.push_back({int(i), port});  // even if its source turns out wrong: one mistake, one message
+            const std::string what = fmt::format("pass \"{}\": no input \"{}\" on {}", node.name, edge.port, node.type);
+            if (const BundlePort* bundle = bundleMeant(edge.port, inputs)) {
+                wired_.push_back({int(i), std::ranges::find(inputs, bundle, &Wire::bundle)->first});
+                throw Error(edge.portWhere, what, hintOf(*bundle));
+            }
+            problems_.add(edge.portWhere, what, inputs.empty() ? "it has none" : didYouMean(edge.port, namesOf(inputs)));
         }
         const int from = graph_.find(edge.fromNode);
         if (from < 0) throw Error(edge.where, "no pass \"" + edge.fromNode + "\"", didYouMean(edge.fromNode, nodeNames(nodes())));
         const GraphNode& fromNode = nodes()[std::size_t(from)];
         if (!fromNode.pass) return;  // its type is wrong, which was said
-        const int fromPort = edge.fromPort.empty() ? onlyOutput(fromNode, edge.where) : findPort(*fromNode.pass, edge.fromPort, isMade);
-        if (fromPort < 0) {
-            const std::vector<std::string> outputs = portNames(*fromNode.pass, isMade);
-            throw Error(edge.where, fmt::format("pass \"{}\" has no output \"{}\"", fromNode.name, edge.fromPort),
-                        outputs.empty() ? "it has none" : didYouMean(edge.fromPort, outputs));
+        if (input == inputs.end()) {
+            if (!edge.fromPort.empty()) outputNamed(fromNode, edge.fromPort, edge.where);  // is there such a one?
+            return;
         }
-        if (port < 0) return;
-        const Source source{from, fromPort, edge.prev};
-        checkTypes({int(i), port}, source, edge.where);
-        node.inputs[std::size_t(port)] = source;
-        places_[i][port] = edge.where;
+        const Wire output = edge.fromPort.empty() ? onlyOutputFor(*input, fromNode, edge.where) : outputNamed(fromNode, edge.fromPort, edge.where);
+        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {}.{}{} is ", node.name, input->name(), input->typeText(),
+                                              fromNode.name, output.name(), edge.prev ? "@prev" : "");
+        if (!input->fits(output)) throw Error(edge.where, start + output.typeText());
+        if (input->membersText() != output.membersText()) {
+            throw Error(edge.where, start + fmt::format("a {} of other members: {}, not {}", output.typeText(), output.membersText(), input->membersText()),
+                        "let both passes include the same header");
+        }
+        for (int p = 0; p < input->count; ++p) checkTypes({int(i), input->first + p}, {from, output.first + p, edge.prev}, start, edge.where);
+        for (int p = 0; p < input->count; ++p) node.inputs[std::size_t(input->first + p)] = Source{from, output.first + p, edge.prev};
+        places_[i][input->first] = edge.where;
     }
 
-    void checkTypes(const Source& to, const Source& from, const Where& where) {
+    /// Two ports whose types have one name: is it one type?
+    void checkTypes(const Source& to, const Source& from, const std::string& start, const Where& where) {
         const PortType &wanted = graph_.port(to).type, &given = graph_.port(from).type;
-        const std::string start = fmt::format("pass \"{}\": \"{}\" takes {}, but {} is ", nodes()[std::size_t(to.node)].name,
-                                              graph_.port(to).name, wanted.text(), graph_.nameOf(from));
-        if (wanted.kind != given.kind || wanted.name != given.name) throw Error(where, start + given.text());
         if (wanted.size != given.size) {
             throw Error(where, start + fmt::format("a {} of another size: {} bytes, not {}", given.text(), given.size, wanted.size),
                         "build both passes against the same header");
@@ -216,33 +222,32 @@ private:
     }
 
     /// An input that has to be wired and that the file doesn't wire, rightly or wrongly.
-    bool isFree(std::size_t i, std::size_t p) const {
-        const Port& port = *graph_.nodes[i].pass->ports[p];
-        return port.isInput() && !port.optional && std::ranges::find(wired_, Source{int(i), int(p)}) == wired_.end();
+    bool isFree(std::size_t i, const Wire& wire) const {
+        return wire.port().isInput() && !wire.port().optional && std::ranges::find(wired_, Source{int(i), wire.first}) == wired_.end();
     }
 
-    /// Unwired World inputs take the last World of the file that doesn't depend on them, a pass that makes a World the one before itself.
-    /// "...Prev" inputs take last frame's.
-    void bindWorlds() {
+    /// Unwired inputs of handles that passes hand on (World) take the last of the file that doesn't depend on them, a pass that makes one itself the one
+    /// before itself. "...Prev" inputs take last frame's.
+    void bindChained() {
         for (const bool producers : {true, false}) {
             for (std::size_t i = 0; i < nodes().size(); ++i) {
-                if (!nodes()[i].pass || makesWorld(nodes()[i]) != producers) continue;
-                for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
-                    const Port& port = *nodes()[i].pass->ports[p];
-                    if (isFree(i, p) && isWorld(port))
-                        nodes()[i].inputs[p] = worldFor(i, port.name.ends_with("Prev"));
+                if (!nodes()[i].pass) continue;
+                for (const Wire& wire : wiresOf(*nodes()[i].pass, isInput)) {
+                    const PortType& type = wire.port().type;
+                    if (type.chained && makes(nodes()[i], type) == producers && isFree(i, wire))
+                        nodes()[i].inputs[std::size_t(wire.first)] = lastMade(type, i, wire.name().ends_with("Prev"));
                 }
             }
         }
     }
 
-    std::optional<Source> worldFor(std::size_t consumer, bool prev) {
-        const std::size_t end = makesWorld(nodes()[consumer]) && !prev ? consumer : nodes().size();
+    std::optional<Source> lastMade(const PortType& type, std::size_t consumer, bool prev) {
+        const std::size_t end = makes(nodes()[consumer], type) && !prev ? consumer : nodes().size();
         for (std::size_t i = end; i-- > 0;) {
-            if (!makesWorld(nodes()[i]) || (!prev && dependsOn(int(i), int(consumer)))) continue;
+            if (!makes(nodes()[i], type) || (!prev && dependsOn(int(i), int(consumer)))) continue;
             const auto& ports = nodes()[i].pass->ports;
             for (std::size_t p = 0; p < ports.size(); ++p) {
-                if (isWorld(*ports[p]) && isMade(*ports[p])) return Source{int(i), int(p), prev};
+                if (isMade(*ports[p]) && ports[p]->type.isSame(type)) return Source{int(i), int(p), prev};
             }
         }
         return std::nullopt;
@@ -252,11 +257,11 @@ private:
     void bindSingleHandles() {
         for (std::size_t i = 0; i < nodes().size(); ++i) {
             if (!nodes()[i].pass) continue;
-            for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) {
-                const Port& port = *nodes()[i].pass->ports[p];
-                if (!isFree(i, p) || port.type.kind != PortType::Kind::handle || isWorld(port)) continue;
-                const std::vector<Source> sources = sourcesFor(i, port);
-                if (sources.size() == 1) nodes()[i].inputs[p] = sources.front();
+            for (const Wire& wire : wiresOf(*nodes()[i].pass, isInput)) {
+                const PortType& type = wire.port().type;
+                if (!isFree(i, wire) || type.kind != PortType::Kind::handle || type.chained) continue;
+                const std::vector<Made> made = outputsFor(i, wire);
+                if (made.size() == 1) nodes()[i].inputs[std::size_t(wire.first)] = Source{made.front().node, made.front().wire.first};
             }
         }
     }
@@ -264,35 +269,35 @@ private:
     void checkInputs(std::size_t i) {
         const GraphNode& node = nodes()[i];
         if (!node.pass || node.off) return;
-        for (std::size_t p = 0; p < node.inputs.size(); ++p) {
-            const Port& port = *node.pass->ports[p];
-            if (node.inputs[p] || !isFree(i, p)) continue;  // what the file wires wrongly was said
-            const std::string candidates = textOf(sourcesFor(i, port));
+        for (const Wire& wire : wiresOf(*node.pass, isInput)) {
+            if (node.inputs[std::size_t(wire.first)] || !isFree(i, wire)) continue;  // what the file wires wrongly was said
+            const std::string candidates = textOf(outputsFor(i, wire));
             problems_.add(node.where,
-                          fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, port.name, port.type.text(), port.doc),
+                          fmt::format("pass \"{}\": input \"{}\" ({}: {}) is not wired", node.name, wire.name(), wire.typeText(), wire.doc()),
                           candidates.empty() ? "no pass of the graph makes one" : "made by: " + candidates);
         }
     }
 
+    struct Made {
+        int node;
+        Wire wire;
+    };
+
     /// The outputs that would fit.
-    std::vector<Source> sourcesFor(std::size_t consumer, const Port& wanted) const {
-        std::vector<Source> sources;
+    std::vector<Made> outputsFor(std::size_t consumer, const Wire& wanted) const {
+        std::vector<Made> found;
         for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
             if (!graph_.nodes[i].pass || dependsOn(int(i), int(consumer))) continue;
-            const auto& ports = graph_.nodes[i].pass->ports;
-            for (std::size_t p = 0; p < ports.size(); ++p) {
-                if (isMade(*ports[p]) && ports[p]->type.kind == wanted.type.kind && ports[p]->type.name == wanted.type.name)
-                    sources.push_back({int(i), int(p), false});
-            }
+            for (const Wire& output : outputsFitting(wanted, *graph_.nodes[i].pass)) found.push_back({int(i), output});
         }
-        return sources;
+        return found;
     }
 
-    std::string textOf(const std::vector<Source>& sources) const {
+    std::string textOf(const std::vector<Made>& made) const {
         constexpr std::size_t listed = 5;
         std::vector<std::string> names;
-        for (const Source& source : std::span(sources).first(std::min(listed, sources.size())))
-            names.push_back(fmt::format("{}.{}", graph_.nodes[std::size_t(source.node)].name, graph_.port(source).name));
+        for (const Made& m : std::span(made).first(std::min(listed, made.size())))
+            names.push_back(fmt::format("{}.{}", graph_.nodes[std::size_t(m.node)].name, m.wire.name()));
         return fmt::format("{}", fmt::join(names, ", "));
     }
 
@@ -300,18 +305,21 @@ private:
         for (std::size_t i = 0; i < nodes().size(); ++i) {
             GraphNode& node = nodes()[i];
             if (!node.pass || node.off) continue;
-            for (std::size_t p = 0; p < node.inputs.size(); ++p) {
-                if (!node.inputs[p]) continue;
-                const Where where = placeOf(int(i), int(p));
+            for (const Wire& wire : wiresOf(*node.pass, isInput)) {
                 attempt([&] {
-                    const Source before = *node.inputs[p];
-                    node.inputs[p] = throughBypasses(nodes(), before, where);
-                    if (node.inputs[p] || node.pass->ports[p]->optional) return;
-                    throw Error(where, fmt::format("pass \"{}\" is off, and the input that stands for its \"{}\" is not wired",
-                                                   nodes()[std::size_t(before.node)].name, graph_.port(before).name));
+                    for (int p = wire.first; p < wire.first + wire.count; ++p) bypassOffSource(node, std::size_t(p), placeOf(int(i), wire.first));
                 });
             }
         }
+    }
+
+    void bypassOffSource(GraphNode& node, std::size_t p, const Where& where) {
+        if (!node.inputs[p]) return;
+        const Source before = *node.inputs[p];
+        node.inputs[p] = throughBypasses(nodes(), before, where);
+        if (node.inputs[p] || node.pass->ports[p]->optional) return;
+        throw Error(where, fmt::format("pass \"{}\" is off, and the input that stands for its \"{}\" is not wired",
+                                       nodes()[std::size_t(before.node)].name, graph_.port(before).wire()));
     }
 
     void bindShow() {
@@ -332,14 +340,13 @@ private:
             const int edge = findInput(to, from, false);
             if (edge < 0) {  // `from` reads the state of `to` before it is changed
                 const int reading = findInput(from, to, true);
-                const std::string state = graph_.nameOf(*nodes()[std::size_t(from)].inputs[std::size_t(reading)]);
+                const std::string state = graph_.wiringOf(from, reading);
                 place = placeOf(from, reading);
                 hint = fmt::format("\"{}\" reads \"{}\", which \"{}\" changes in place, and so must come before it; wire an output",
                                    names.back(), state, nodes()[std::size_t(to)].name);
             } else if (to <= from && hint.empty()) {
                 place = placeOf(to, edge);
-                hint = fmt::format("\"{}@prev\" would read last frame's value",
-                                   graph_.nameOf(*nodes()[std::size_t(to)].inputs[std::size_t(edge)]));
+                hint = fmt::format("\"{}@prev\" would read last frame's value", graph_.wiringOf(to, edge));
             }
         }
         names.push_back(names.front());
@@ -371,8 +378,8 @@ private:
     Graph graph_;
     Problems problems_;
     std::vector<const NodeDescription*> descriptions_;  // of each node; nullptr for the implied scene
-    std::vector<std::map<int, Where>> places_;          // of each node's wired inputs
-    std::vector<Source> wired_;                         // inputs that the file wires, rightly or wrongly
+    std::vector<std::map<int, Where>> places_;          // of each node's wired inputs, bundles by their first member
+    std::vector<Source> wired_;                         // inputs that the file wires, rightly or wrongly, likewise
     std::map<Path, Hash> hashes_;
 };
 

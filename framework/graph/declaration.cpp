@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Checks what a pass declares: names that would not compile in GLSL, shapes that follow nothing, defaults that are not allowed.
 #include <framework/graph/header.h>
+#include <framework/graph/wire.h>
 
 #include <fmt/format.h>
 
@@ -57,8 +58,8 @@ public:
         : pass_(pass), type_(type), where_(where), problems_(problems) {}
 
     void run() {
-        for (const Port* port : pass_.ports) {
-            if (!sharesName(*port)) checkName("port", port->name);
+        for (const Wire& wire : wiresOf(pass_)) {
+            if (!sharesName(wire)) checkName("port", wire.name());
         }
         for (const Parameter* parameter : pass_.parameters) checkName("parameter", parameter->name);
         for (const Port* port : pass_.ports) checkGenerated(*port);
@@ -71,10 +72,11 @@ private:
     void add(std::string what, std::string hint = {}) { problems_.add(where_, "pass type \"" + type_ + "\": " + what, std::move(hint)); }
 
     /// An output may have the name of an input of its type, declared before it: what comes in goes out changed.
-    bool sharesName(const Port& port) const {
-        const Port* first = find(port.name);
-        return first != &port && first->isInput() && !port.isInput() && first->type.kind == port.type.kind && first->type.name == port.type.name &&
-               std::ranges::count(pass_.ports, port.name, &Port::name) == 2;
+    bool sharesName(const Wire& wire) const {
+        const std::vector<Wire> wires = wiresOf(pass_);
+        const auto first = std::ranges::find(wires, wire.name(), &Wire::name);
+        return first->first != wire.first && first->port().isInput() && !wire.port().isInput() && first->fits(wire) &&
+               std::ranges::count(wires, wire.name(), &Wire::name) == 2;
     }
 
     void checkName(const char* kind, std::string_view name) {
@@ -93,16 +95,26 @@ private:
     /// colorSize() of port color would meet a port named colorSize.
     void checkGenerated(const Port& port) {
         if (port.name.empty()) return;
+<<<<<<< HEAD
         const std::string name(port.name);
         std::string capital = name;
         capital[0] = char(std::toupper(static_cast<unsigned char>(capital[0])));
         for (const std::string& made : {name + "Size", name + "Count", name + "Rgba", "store" + capital, "add" + capital}) {
             if (names_.contains(made)) add(fmt::format("\"{}\" is what pass.glsl makes of port \"{}\"", made, name), "choose another name");
+=======
+        const std::string name = port.identifier();
+        std::string store = "store" + name;
+        store[5] = char(std::toupper(static_cast<unsigned char>(store[5])));
+        std::vector<std::string> made{name + "Size", name + "Count", name + "Rgba", store};
+        if (port.bundle) made.push_back(name);
+        for (const std::string& text : made) {
+            if (names_.contains(text)) add(fmt::format("\"{}\" is what pass.glsl makes of port \"{}\"", text, port.name), "choose another name");
+>>>>>>> wires
         }
     }
 
     const Port* find(std::string_view name) const {
-        const auto found = std::ranges::find(pass_.ports, name, &Port::name);
+        const auto found = std::ranges::find(pass_.ports, name, &Port::wire);
         return found == pass_.ports.end() ? nullptr : *found;
     }
 
@@ -151,7 +163,7 @@ private:
         const bool known = std::ranges::count(pass_.ports, bypass.in) + std::ranges::count(pass_.ports, bypass.out) == 2;
         if (!known || !bypass.in->isInput() || bypass.out->role != Port::Role::out) {
             add("a bypass must lead from an input to an output of the pass");
-        } else if (bypass.in->type.kind != bypass.out->type.kind || bypass.in->type.name != bypass.out->type.name) {
+        } else if (!bypass.in->type.isSame(bypass.out->type)) {
             add(fmt::format("the bypass from \"{}\" to \"{}\" joins {} and {}", bypass.in->name, bypass.out->name, bypass.in->type.text(),
                             bypass.out->type.text()));
         }

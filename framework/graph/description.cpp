@@ -23,12 +23,14 @@ bool isName(std::string_view text) {
     return !text.empty() && std::ranges::all_of(text, fits);
 }
 
-/// "pass.port" or "pass"; false when it is neither.
+/// "pass.port" or "pass"; false when it is neither. The port may be a bundle's member, "paths.reservoirs".
 bool readReference(std::string_view text, std::string& node, std::string& port) {
     const std::size_t dot = text.find('.');
     node = text.substr(0, dot);
     port = dot == text.npos ? std::string_view() : text.substr(dot + 1);
-    return isName(node) && (dot == text.npos || isName(port));
+    const std::size_t inner = port.find('.');
+    const bool isPort = isName(std::string_view(port).substr(0, inner)) && (inner == port.npos || isName(std::string_view(port).substr(inner + 1)));
+    return isName(node) && (dot == text.npos || isPort);
 }
 
 /// The value as JSON where it is JSON, else as text: 2, 0.5, true, [1, 2], schedule.

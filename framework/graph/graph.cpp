@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Questions about a graph that was built: names of ports, sizes, the graph with everything written out.
 #include <framework/graph/graph.h>
+#include <framework/graph/wire.h>
 
 #include <fmt/format.h>
 
@@ -62,7 +63,7 @@ private:
 
     int indexOf(int nodeIndex, std::string_view name) const {
         const auto& ports = graph_.nodes[std::size_t(nodeIndex)].pass->ports;
-        return int(std::ranges::find(ports, name, &Port::name) - ports.begin());
+        return int(std::ranges::find(ports, name, &Port::wire) - ports.begin());
     }
 
     bool isUnwired(int nodeIndex, int portIndex) const {
@@ -87,6 +88,13 @@ std::string Graph::nameOf(const Source& source) const {
     return fmt::format("{}.{}{}", nodes[std::size_t(source.node)].name, port(source).name, source.prev ? "@prev" : "");
 }
 
+std::string Graph::wiringOf(int node, int port) const {
+    const GraphNode& n = nodes[std::size_t(node)];
+    const Source& source = *n.inputs[std::size_t(port)];
+    if (!n.pass->ports[std::size_t(port)]->bundle) return nameOf(source);
+    return fmt::format("{}.{}{}", nodes[std::size_t(source.node)].name, this->port(source).wire(), source.prev ? "@prev" : "");
+}
+
 int Graph::find(std::string_view name) const {
     const auto found = std::ranges::find(nodes, name, &GraphNode::name);
     return found == nodes.end() ? -1 : int(found - nodes.begin());
@@ -104,11 +112,12 @@ Json Graph::resolved() const {
     out["frame"]["count"] = description.count;
     out["frame"]["seed"] = std::int64_t(description.seed);
     out["passes"] = Json::object();
-    for (const GraphNode& node : nodes) {
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        const GraphNode& node = nodes[n];
         Json pass = Json::object();
         pass["type"] = node.type;
-        for (std::size_t i = 0; i < node.inputs.size(); ++i) {
-            if (node.inputs[i]) pass["in"][node.pass->ports[i]->name] = nameOf(*node.inputs[i]);
+        for (const Wire& wire : wiresOf(*node.pass)) {
+            if (node.inputs[std::size_t(wire.first)]) pass["in"][wire.name()] = wiringOf(int(n), wire.first);
         }
         if (!node.pass->parameters.empty()) pass["set"] = settingsOf(*node.pass);
         if (node.off) pass["off"] = true;

@@ -41,6 +41,8 @@ struct Graph {
     }
     /// "pass.port", "pass.port@prev"
     LODESTIR_API std::string nameOf(const Source& source) const;
+    /// What the input `port` of a node is wired to, as a graph file writes it: a bundle's member is wired with its bundle.
+    LODESTIR_API std::string wiringOf(int node, int port) const;
     /// Index of a node, -1: no such.
     LODESTIR_API int find(std::string_view name) const;
     /// The whole graph as a graph file with every default written out: for run.json and image headers. Loads to the same graph again.
@@ -50,8 +52,10 @@ struct Graph {
 /// Constructs the passes and checks everything; throws Error with all that is wrong. `libraries` must outlive the graph.
 LODESTIR_API Graph buildGraph(Description description, PluginLibraries& libraries);
 
-/// The port that "pass.port", or "pass" where it has one output, names (for --dump); follows the bypasses of passes that are off.
-/// `@prev` is refused. Error at `where`.
+/// The ports that "pass.port", or "pass" where it has one output, names (for --dump): several where it is a bundle. Follows the bypasses of passes that
+/// are off. `@prev` is refused. Error at `where`.
+LODESTIR_API std::vector<Source> findSources(const Graph& graph, const std::string& name, const Where& where = {});
+/// The same where it has to be one (for --show).
 LODESTIR_API Source findSource(const Graph& graph, const std::string& name, const Where& where = {});
 
 /// Sets "pass.param" with the checks of the graph file. Returns false when the value was that already.

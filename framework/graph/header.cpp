@@ -97,7 +97,7 @@ private:
     /// How the shader reads the port. An output that has the name of an input is read as madeName: the plain name is the input.
     std::string readName(const Port& port) const {
         const bool shared = !port.isInput() && std::ranges::count(pass_.ports, port.name, &Port::name) == 2;
-        return shared ? "made" + capitalised(port.name) : std::string(port.name);
+        return shared ? "made" + capitalised(port.identifier()) : port.identifier();
     }
 
     void writeBlock() {
@@ -149,13 +149,15 @@ private:
         const Format format = port.isInput() ? bindings_[i].format : port.format;
         const std::string kind = port.type.kind == PortType::Kind::image && bound ? std::string(factsOf(format).name) : port.type.text();
         line("\n// {} ({}{})", port.doc, kind, bound ? "" : ", unwired");
-        if (port.optional) line("#define HAS_{} {}", port.name, bound ? 1 : 0);
+        if (port.optional && startsWire(port)) line("#define HAS_{} {}", port.wire(), bound ? 1 : 0);
         switch (port.type.kind) {
         case PortType::Kind::image: bound ? writeImage(i, port, format) : writeNoImage(port); break;
         case PortType::Kind::buffer: bound ? writeBuffer(i, port) : writeNoBuffer(port); break;
         case PortType::Kind::handle: writeHandle(port, bound); break;
         }
     }
+
+    static bool startsWire(const Port& port) { return !port.bundle || &port == &port.bundle->members.front(); }
 
     void writeImage(std::size_t i, const Port& port, Format format) {
         const FormatFacts& facts = factsOf(format);
@@ -167,9 +169,9 @@ private:
         line("    if (isOutside({}u, p, port.size)) return {}(0);", i, facts.glsl);
         line("    return decode{}({}{}(port.address).at[texelIndex(p, port.size)]);", stored, port.isInput() ? "In" : "Out", stored);
         line("}}");
-        if (port.isInput()) line("vec4 {}Rgba(ivec2 p) {{ return asRgba({}(p)); }}", port.name, port.name);
+        if (port.isInput()) line("vec4 {}Rgba(ivec2 p) {{ return asRgba({}(p)); }}", name, name);
         if (!isWritable(port)) return;
-        line("void store{}(ivec2 p, {} value) {{", capitalised(port.name), facts.glsl);
+        line("void store{}(ivec2 p, {} value) {{", capitalised(port.identifier()), facts.glsl);
         line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, p, port.size)) return;", i);
         line("    Out{}(port.address).at[texelIndex(p, port.size)] = encode{}(value);", stored, stored);
@@ -193,7 +195,7 @@ private:
         line("    return {}(port.address).at[i];", memory);
         line("}}");
         if (!isWritable(port)) return;
-        line("void store{}(uint i, {} value) {{", capitalised(port.name), port.type.name);
+        line("void store{}(uint i, {} value) {{", capitalised(port.identifier()), port.type.name);
         line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return;", i);
         line("    {}(port.address).at[i] = value;", memory);
@@ -207,8 +209,8 @@ private:
     }
 
     void writeNoBuffer(const Port& port) {
-        line("uint {}Count() {{ return 0u; }}", port.name);
-        line("{} {}(uint i) {{ {} nothing = {{}}; return nothing; }}", port.type.name, port.name, port.type.name);
+        line("uint {}Count() {{ return 0u; }}", port.identifier());
+        line("{} {}(uint i) {{ {} nothing = {{}}; return nothing; }}", port.type.name, port.identifier(), port.type.name);
     }
 
     void writeHandle(const Port& port, bool bound) {

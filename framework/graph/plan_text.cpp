@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A plan in words and as JSON facts.
 #include <framework/graph/plan.h>
+#include <framework/graph/wire.h>
 
 #include <fmt/format.h>
 
@@ -50,10 +51,11 @@ std::size_t ownBytes(const Graph& graph, const PlanResource& r) {
     return bytesOf(graph, r.node, r.port, graph.description.size) * (r.history ? 2 : 1);
 }
 
-std::string edgesText(const Graph& graph, const GraphNode& node) {
+std::string edgesText(const Graph& graph, int index) {
+    const GraphNode& node = graph.nodes[std::size_t(index)];
     std::vector<std::string> edges;
-    for (std::size_t p = 0; p < node.inputs.size(); ++p) {
-        if (node.inputs[p]) edges.push_back(fmt::format("{} = {}", node.pass->ports[p]->name, graph.nameOf(*node.inputs[p])));
+    for (const Wire& wire : wiresOf(*node.pass)) {
+        if (node.inputs[std::size_t(wire.first)]) edges.push_back(fmt::format("{} = {}", wire.name(), graph.wiringOf(index, wire.first)));
     }
     return fmt::format("{}", fmt::join(edges, ", "));
 }
@@ -83,7 +85,7 @@ std::string text(const Plan& plan, const Graph& graph) {
         if (!step.barrier.empty()) out += fmt::format("       barrier: {}\n", step.barrier);
         out += fmt::format("  {:3}  {:{}}  {:{}}  {}{}\n", s + 1, node.name, nameWidth, node.type, typeWidth, sourceOf(node),
                            step.onChange ? "  (onChange)" : "");
-        if (const std::string edges = edgesText(graph, node); !edges.empty()) out += "         " + edges + "\n";
+        if (const std::string edges = edgesText(graph, step.node); !edges.empty()) out += "         " + edges + "\n";
     }
     out += "memory\n";
     for (const PlanResource& r : plan.resources) {

@@ -76,7 +76,7 @@ public:
         const std::byte* old = memory.version > 0 ? memory.copies[std::size_t(before)]->mapped() : nullptr;
         std::vector<std::byte> bytes(value.begin(), value.end());
         keep = withInputs(std::move(keep));
-        if (s_.topLevels_ && port.type.name == "World") keep = withTopLevel(bytes, old, memory.keep[std::size_t(before)], std::move(keep), memory.now().address());
+        if (s_.topLevels_ && port.type.isSame(PortTypeOf<World>::value)) keep = withTopLevel(bytes, old, memory.keep[std::size_t(before)], std::move(keep), memory.now().address());
         const bool same = old && std::memcmp(old, bytes.data(), bytes.size()) == 0;
         std::memcpy(memory.now().mapped(), bytes.data(), bytes.size());
         memory.keep[std::size_t(memory.current)] = std::move(keep);

@@ -2,6 +2,7 @@
 // A pass's declaration as JSON facts, and as the schema of graph files.
 #include <framework/graph/graph.h>
 #include <framework/graph/schema.h>
+#include <framework/graph/wire.h>
 
 #include <fmt/format.h>
 
@@ -16,16 +17,19 @@ const char* roleName(Port::Role role) {
     return names[static_cast<std::size_t>(role)];
 }
 
-Json portFacts(const Port& port) {
+/// What is said of a port; of a bundle also what it is made of.
+Json portFacts(const Wire& wire) {
+    const Port& port = wire.port();
     Json fact = Json::object();
-    fact["name"] = std::string(port.name);
+    fact["name"] = std::string(wire.name());
     fact["role"] = roleName(port.role);
-    fact["type"] = port.type.text();
-    if (port.type.kind != PortType::Kind::image) fact["bytes"] = std::int64_t(port.type.size);
+    fact["type"] = wire.typeText();
+    for (const Wire& member : membersOf(wire)) fact["members"].push(portFacts(member));
+    if (!wire.bundle && port.type.kind != PortType::Kind::image) fact["bytes"] = std::int64_t(port.type.size);
     if (!port.isInput() && port.type.kind == PortType::Kind::image) fact["format"] = std::string(factsOf(port.format).name);
     if (const std::string size = sizeText(port); !size.empty()) fact["size"] = size;
     if (port.isInput()) fact["optional"] = port.optional;
-    fact["doc"] = std::string(port.doc);
+    fact["doc"] = std::string(wire.doc());
     return fact;
 }
 
@@ -95,12 +99,12 @@ Json closedObject() {
 /// What "in", "set" and "off" may be when "type" is this pass.
 Json passRule(const PassType& type) {
     Json in = closedObject(), set = closedObject(), required = Json::array();
-    for (const Port* port : type.pass->ports) {
-        if (!port->isInput()) continue;
-        Json& edge = in["properties"][port->name];
+    for (const Wire& wire : wiresOf(*type.pass, [](const Port& port) { return port.isInput(); })) {
+        const bool optional = wire.port().optional, bindsItself = wire.port().type.kind == PortType::Kind::handle;
+        Json& edge = in["properties"][wire.name()];
         edge["$ref"] = "#/$defs/source";
-        edge["description"] = fmt::format("{}: {}{}", port->type.text(), port->doc, port->optional ? " (optional)" : "");
-        if (!port->optional && port->type.name != "World") required.push(std::string(port->name));
+        edge["description"] = fmt::format("{}: {}{}", wire.typeText(), wire.doc(), optional ? " (optional)" : "");
+        if (!optional && !bindsItself) required.push(std::string(wire.name()));
     }
     const bool needsInputs = !required.items().empty();
     if (needsInputs) in["required"] = std::move(required);
@@ -185,7 +189,7 @@ Json facts(const PassType& type) {
     out["cadence"] = type.pass->cadence == Cadence::onChange ? "onChange" : "everyFrame";
     out["canBeOff"] = !type.pass->bypasses.empty();
     out["ports"] = Json::array();
-    for (const Port* port : type.pass->ports) out["ports"].push(portFacts(*port));
+    for (const Wire& wire : wiresOf(*type.pass)) out["ports"].push(portFacts(wire));
     out["parameters"] = Json::array();
     for (const Parameter* parameter : type.pass->parameters) out["parameters"].push(parameterFacts(*parameter));
     return out;
@@ -208,13 +212,13 @@ Json graphSchema(std::span<const PassType> types) {
     properties["passes"]["minProperties"] = 1;
     properties["passes"]["propertyNames"]["pattern"] = "^[A-Za-z0-9_-]+$";
     properties["passes"]["additionalProperties"]["$ref"] = "#/$defs/pass";
-    properties["show"] = described("string", "the port that is shown: pass.port, or pass where it has one output");
+    properties["show"] = described("string", "the port that is shown: pass.port, pass.bundle.member, or pass where it has one output");
     properties["variants"] = described("object", "merge patches of this graph by name");
     properties["variants"]["additionalProperties"] = described("object", "");
     schema["$defs"]["pass"] = passSchema(types);
     Json& source = schema["$defs"]["source"];
-    source = described("string", "pass.port, or pass where it has one output; @prev: last frame's value");
-    source["pattern"] = "^[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+)?(@prev)?$";
+    source = described("string", "pass.port, or pass where one of its outputs has the type; @prev: last frame's value");
+    source["pattern"] = "^[A-Za-z0-9_-]+(\\.[A-Za-z0-9_-]+){0,2}(@prev)?$";
     return schema;
 }
 

@@ -2,6 +2,7 @@
 // A pass's declaration for people: on a terminal and as Markdown.
 #include <framework/graph/graph.h>
 #include <framework/graph/schema.h>
+#include <framework/graph/wire.h>
 
 #include <fmt/format.h>
 
@@ -26,8 +27,8 @@ std::string shapeText(const Port& port) {
 
 std::vector<Row> portRows(const PassType& type) {
     std::vector<Row> rows;
-    for (const Port* port : type.pass->ports)
-        rows.push_back({std::string(port->name), roleText(*port), port->type.text(), shapeText(*port), std::string(port->doc)});
+    for (const Wire& wire : wiresOf(*type.pass))
+        rows.push_back({std::string(wire.name()), roleText(wire.port()), wire.typeText(), shapeText(wire.port()), std::string(wire.doc())});
     return rows;
 }
 
@@ -72,11 +73,24 @@ std::string table(const Row& heads, const std::vector<Row>& rows) {
     return out;
 }
 
+/// One of each type.
+std::vector<Wire> bundlesOf(const Pass& pass) {
+    std::vector<Wire> bundles;
+    for (const Wire& wire : wiresOf(pass)) {
+        if (wire.bundle && std::ranges::find(bundles, wire.typeText(), &Wire::typeText) == bundles.end()) bundles.push_back(wire);
+    }
+    return bundles;
+}
+
 std::string remarks(const PassType& type) {
     std::string out;
     if (type.pass->cadence == Cadence::onChange) out += "Runs when an input or a parameter changed. ";
     if (type.pass->restartOnChange) out += "Starts again when any parameter of the graph changes. ";
-    for (const Pass::Bypass& bypass : type.pass->bypasses) out += fmt::format("Off: `{}` is `{}`. ", bypass.out->name, bypass.in->name);
+    for (const Pass::Bypass& bypass : type.pass->bypasses) {
+        const BundlePort* bundle = bypass.in->bundle;
+        if (!bundle || bypass.in == &bundle->members.front()) out += fmt::format("Off: `{}` is `{}`. ", bypass.out->wire(), bypass.in->wire());
+    }
+    for (const Wire& bundle : bundlesOf(*type.pass)) out += fmt::format("{} is {}. ", bundle.typeText(), bundle.membersText());
     if (!out.empty()) out.pop_back();
     return out;
 }

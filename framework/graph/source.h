@@ -2,6 +2,7 @@
 // From names to ports: what "pass.port" and "pass" mean in a graph, and where a value really comes from when passes are off.
 #pragma once
 #include <framework/graph/graph.h>
+#include <framework/graph/wire.h>
 
 #include <optional>
 #include <string>
@@ -9,29 +10,21 @@
 
 namespace lodestir {
 
-/// Can another pass read it? (Scratch can only be shown or dumped.)
-inline bool isMade(const Port& port) { return port.role == Port::Role::out || port.role == Port::Role::state; }
-
-/// Index of the port of that name for which fits(port) holds, -1: none.
-template <class P> int findPort(const Pass& pass, std::string_view name, const P& fits) {
-    for (std::size_t i = 0; i < pass.ports.size(); ++i) {
-        if (pass.ports[i]->name == name && fits(*pass.ports[i])) return int(i);
-    }
-    return -1;
-}
-
-template <class P> std::vector<std::string> portNames(const Pass& pass, const P& fits) {
-    std::vector<std::string> names;
-    for (const Port* port : pass.ports) {
-        if (fits(*port)) names.emplace_back(port->name);
-    }
-    return names;
-}
-
 std::vector<std::string> nodeNames(const std::vector<GraphNode>& nodes);
 
+/// The output of that name: of a port, a bundle, or a bundle's member ("paths.reservoirs"). Error at `where`.
+Wire outputNamed(const GraphNode& node, const std::string& name, const Where& where);
 /// The only output of a node, for references that name the pass alone. Error at `where` when there is none or more than one.
-int onlyOutput(const GraphNode& node, const Where& where);
+Wire onlyOutput(const GraphNode& node, const Where& where);
+/// The outputs that `wanted` takes, members of bundles included.
+std::vector<Wire> outputsFitting(const Wire& wanted, const Pass& pass);
+/// The only one of them, for wires that name the pass alone. Error at `where` when there is none or more than one.
+Wire onlyOutputFor(const Wire& wanted, const GraphNode& node, const Where& where);
+
+/// The bundle among `wires` that has a member who might be meant by `name`; null: none.
+const BundlePort* bundleMeant(std::string_view name, const std::vector<Wire>& wires);
+/// "reservoirs and samples travel together: wire \"paths\"", with what comes before the bundle's name.
+std::string hintOf(const BundlePort& bundle, const std::string& prefix = {});
 
 /// The input that stands for an output when its pass is off; -1: none does.
 int bypassOf(const Pass& pass, int port);

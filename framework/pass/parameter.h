@@ -64,6 +64,9 @@ struct Param<T, C> : Parameter {
     operator T() const { return static_cast<T>(std::get<int>(value)); }
 };
 
+// What several passes share is a group, declared once: a struct with Params as members and a constructor that takes the pass. A member of the pass
+// (`Similarity similarity{this};`) enters them all, under their own names; the GLSL that asks by them stands beside the group.
+
 /// A specialization constant. On lavapipe every value is a new compilation.
 template <class T> using Const = Param<T, true>;
 

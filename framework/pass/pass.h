@@ -8,10 +8,16 @@
 //     };
 //     LODESTIR_PASS(Bloom, "bloom.comp", "Gaussian of the highlights, at half resolution.")
 //
+<<<<<<< HEAD
 // The shader starts with #include "pass.glsl", which is made from this declaration. A pass sees this header, framework/pass/scene.h and image.h beside it,
 // what is shared with shaders, and the families of passes; nothing else of the framework is on its include path.
+=======
+// The shader starts with #include "pass.glsl", which is made from this declaration. Buffers that always travel together are one port (bundle.h);
+// parameters that passes share are one member (parameter.h).
+>>>>>>> wires
 #pragma once
 #include <framework/core/error.h>  // what execute() throws
+#include <framework/pass/bundle.h>
 #include <framework/pass/parameter.h>
 #include <framework/pass/port.h>
 #include <framework/shaders/world/ray.h>
@@ -26,8 +32,18 @@
 
 namespace lodestir {
 
+<<<<<<< HEAD
 struct Scene;         // framework/pass/scene.h
 struct SceneRecords;  // the same
+=======
+/// lod_select takes a World and makes one.
+template <> inline constexpr bool isChained<World> = true;
+
+struct Scene;
+namespace gpu {
+class Device;
+}
+>>>>>>> wires
 
 /// When a pass runs: every frame, or only when an input's content or a parameter changed (its time then counts as set-up).
 enum class Cadence : std::uint8_t { everyFrame, onChange };
@@ -48,6 +64,7 @@ public:
     virtual glm::uvec2 sizeOf(const Port& port) const = 0;      ///< of an image, pixels
     virtual std::uint32_t countOf(const Port& port) const = 0;  ///< elements of a buffer
     virtual bool isBound(const Port& port) const = 0;
+    bool isBound(const BundlePort& port) const { return isBound(port.members.front()); }
     virtual std::span<const std::byte> valueOf(const Port& port) const = 0;  ///< the struct that a wired handle input holds
     /// Runs a shader of this pass's folder once for each element of `extent` (pixels, or {n, 1}). A shader that includes
     /// "trace/driver.glsl" is spread as its tracing body likes best. `arguments`: up to 4 words, argument(i) in the shader.
@@ -94,6 +111,9 @@ public:
 /// Declares that a pass with "off": true hands `in` through as `out`.
 struct LODESTIR_API PassThrough {
     PassThrough(Pass* pass, const Port& in, const Port& out) { pass->bypasses.push_back({&in, &out}); }
+    template <Bundle B> PassThrough(Pass* pass, const In<B>& in, const Out<B>& out) {
+        for (std::size_t i = 0; i < in.members.size(); ++i) pass->bypasses.push_back({&in.members[i], &out.members[i]});
+    }
 };
 
 /// One pass of a plugin library, linked into the library's own list.

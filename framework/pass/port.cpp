@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Ports enter themselves into their pass; facts of texel formats.
-#include <framework/pass/port.h>
+#include <framework/pass/bundle.h>
 #include <framework/pass/pass.h>
 
 #include <array>
+#include <cctype>
 
 namespace lodestir {
 
@@ -22,6 +23,17 @@ const FormatFacts& factsOf(Format format) {
 }
 
 std::string PortType::text() const { return kind == Kind::buffer ? "Buffer<" + std::string(name) + ">" : std::string(name); }
+
+std::string_view Port::wire() const { return bundle ? bundle->name : name; }
+
+std::string Port::identifier() const {
+    std::string text(name);
+    for (std::size_t dot = 0; (dot = text.find('.')) != text.npos;) {
+        text.erase(dot, 1);
+        if (dot < text.size()) text[dot] = char(std::toupper(static_cast<unsigned char>(text[dot])));
+    }
+    return text;
+}
 
 Port::Port(Pass* pass, std::string_view name_, std::string_view doc_, PortType type_, Role role_, Shape shape, bool optional_)
     : name(name_),

@@ -10,6 +10,7 @@
 
 namespace lodestir {
 
+class BundlePort;
 class Pass;
 
 /// Texel formats. An image is a row-major array of texels in a buffer; GLSL sees float, vec2, vec4 or uint.
@@ -44,15 +45,21 @@ struct Image {};                          ///< tag of an image port
 template <class T> struct Buffer {};      ///< tag of a port that is an array of the shared struct T
 
 /// The type of a port. Two ends of an edge fit when kind and name are equal and, for structs, size and the hash of the header's include closure.
-struct PortType {
+struct LODESTIR_API PortType {
     enum class Kind : std::uint8_t { image, buffer, handle } kind = Kind::image;
     std::string_view name = "Image";  ///< "Image", or the shared struct's name
     std::string_view header = {};     ///< of the struct, as included in GLSL; empty for built-in types
     std::size_t size = 0;             ///< of the struct in bytes
+    bool chained = false;             ///< see isChained
     std::string text() const;         ///< "Image", "Buffer<Reservoir>", "World"
+    bool isSame(const PortType& other) const { return kind == other.kind && name == other.name; }
 };
+/// Handles that passes hand on one after the other, each changed a little: an input that a graph leaves unwired takes the last that was made, and one
+/// whose name ends in "Prev" last frame's. Of any other handle a graph has one, or says which. Specialised where the struct is made known to passes.
+template <class R> inline constexpr bool isChained = false;
+
 template <class R> struct PortTypeOf {  // any other shared struct: one value of it, e.g. World
-    static constexpr PortType value{PortType::Kind::handle, SharedStruct<R>::name, SharedStruct<R>::header, SharedStruct<R>::size};
+    static constexpr PortType value{PortType::Kind::handle, SharedStruct<R>::name, SharedStruct<R>::header, SharedStruct<R>::size, isChained<R>};
 };
 template <> struct PortTypeOf<Image> {
     static constexpr PortType value{};
@@ -64,15 +71,18 @@ template <class T> struct PortTypeOf<Buffer<T>> {
 /// A port as a pass declares it. `state` is an output that finds its own content of last frame in place; `scratch` lives inside one execute.
 struct LODESTIR_API Port {
     enum class Role : std::uint8_t { in, out, state, scratch };
-    std::string_view name, doc;
+    std::string_view name, doc;  ///< of a bundle's member: "paths.reservoirs"
     PortType type;
     Role role;
     bool optional;   ///< an input that may stay unwired (the shader tests HAS_name)
     Format format;   ///< of an image that this pass makes
     Extent extent;   ///< of an image that this pass makes
     Count count;     ///< of a buffer that this pass makes
+    const BundlePort* bundle = nullptr;  ///< that it is a member of
 
     bool isInput() const { return role == Role::in; }
+    std::string_view wire() const;   ///< the name that a graph wires: its own, or its bundle's
+    std::string identifier() const;  ///< its name in shaders: "paths.reservoirs" is pathsReservoirs
 
 protected:
     struct Shape {

@@ -123,7 +123,7 @@ TEST(Description, NamesTheOptionThatIsWrong) {
     EXPECT_EQ(complaint({.set = {readSetting("shode.bounces=1")}}), "--set shode.bounces=1: no pass \"shode\"; did you mean \"shade\"?");
     EXPECT_EQ(complaint({.set = {readSetting("frame.size=12")}}), "--set frame.size=12: \"size\" must be an array, not an integer (12)");
     EXPECT_EQ(complaint({.frames = 0}), "--frames: \"count\" must be 1..2147483647, not 0");
-    EXPECT_EQ(complaint({.show = "a.b.c"}), "--show: \"a.b.c\" names no port; write \"pass\" or \"pass.port\"");
+    EXPECT_EQ(complaint({.show = "a.b.c.d"}), "--show: \"a.b.c.d\" names no port; write \"pass\" or \"pass.port\"");
 }
 
 TEST(Description, ReportsAllProblemsAtOnce) {

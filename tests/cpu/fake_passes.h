@@ -3,8 +3,20 @@
 #pragma once
 #include <framework/graph/graph.h>
 
+#include <array>
 #include <string>
 #include <vector>
+
+namespace lodestir {
+
+/// A struct that passes hand on, as they do World.
+struct Tally {
+    uint count;
+};
+
+}  // namespace lodestir
+LODESTIR_SHARED(Tally, "")
+template <> inline constexpr bool lodestir::isChained<lodestir::Tally> = true;
 
 namespace lodestir::fake {
 
@@ -97,6 +109,47 @@ struct Follow final : Pass {
     In<Ray>    agreed{this, "agreed", "what others agreed on"};
     Out<Image> image{this, "image", "made by it", Format::rgba16f};
 };
+/// A bundle of the tests' own, and one that claims its name.
+struct Particles {
+    static constexpr std::string_view name = "Particles";
+    static constexpr std::array members{bundled<vec4>("places", "where each is"), bundled<float>("masses", "how heavy")};
+};
+struct OtherParticles {
+    static constexpr std::string_view name = "Particles";
+    static constexpr std::array members{bundled<vec4>("places", "where each is")};
+};
+struct Emit final : Pass {
+    Out<Particles> particles{this, "particles", "new ones", Count::fixed(300)};
+    Out<Image>     light{this, "light", "that they send", Format::rgba16f};
+    Out<Image>     smoke{this, "smoke", "that they leave", Format::rgba16f};
+};
+struct Drift final : Pass {
+    In<Particles>      particles{this, "particles", "before"};
+    In<Particles>      past{this, "past", "last frame's", Need::optional};
+    Out<Particles>     particlesOut{this, "particles", "after", Count::likePort("particles")};
+    Scratch<Particles> between{this, "between", "in between", Count::likePort("past")};
+    PassThrough        bypass{this, particles, particlesOut};
+};
+struct Weigh final : Pass {
+    In<Buffer<float>> masses{this, "masses", "how heavy each is"};
+    Out<Image>        sum{this, "sum", "how heavy all are", Format::r32f};
+};
+struct CountOthers final : Pass {
+    In<OtherParticles> particles{this, "particles", "of another kind"};
+    Out<Image>         count{this, "count", "how many", Format::r32f};
+};
+struct StartTally final : Pass {
+    Out<Tally> tally{this, "tally", "nothing counted"};
+};
+struct AddToTally final : Pass {
+    In<Tally>  tally{this, "tally", "so far"};
+    Out<Tally> tallyOut{this, "tally", "with one more"};
+};
+struct ShowTally final : Pass {
+    In<Tally>  tally{this, "tally", "in the end"};
+    In<Tally>  tallyPrev{this, "tallyPrev", "last frame's"};
+    Out<Image> image{this, "image", "of both", Format::r32f};
+};
 struct BadNames final : Pass {
     In<Image>  input{this, "input", "a reserved word"};
     Out<Image> pixel{this, "pixel", "a name of pass.glsl", Format::rgba16f, {.like = "nobody"}};
@@ -126,6 +179,13 @@ inline void addTo(PluginLibraries& libraries) {
     libraries.addBuiltIn("sharpen", plugin<Sharpen>("Sharpen"));
     libraries.addBuiltIn("agree_on", plugin<AgreeOn>("AgreeOn"));
     libraries.addBuiltIn("follow", plugin<Follow>("Follow"));
+    libraries.addBuiltIn("emit", plugin<Emit>("Emit"));
+    libraries.addBuiltIn("drift", plugin<Drift>("Drift"));
+    libraries.addBuiltIn("weigh", plugin<Weigh>("Weigh"));
+    libraries.addBuiltIn("count_others", plugin<CountOthers>("CountOthers"));
+    libraries.addBuiltIn("start_tally", plugin<StartTally>("StartTally"));
+    libraries.addBuiltIn("add_to_tally", plugin<AddToTally>("AddToTally"));
+    libraries.addBuiltIn("show_tally", plugin<ShowTally>("ShowTally"));
     libraries.addBuiltIn("bad_names", plugin<BadNames>("BadNames"));
 }
 

@@ -81,6 +81,20 @@ TEST(Graph, BindsWorldsToTheLastProducerThatDoesNotDependOnTheConsumer) {
     EXPECT_EQ(inputOf(prev, "m", "other"), "unwired");  // optional inputs are left alone
 }
 
+TEST(Graph, BindsWhateverIsHandedOnLikeAWorld) {
+    fake::Workshop workshop;
+    const Graph g = workshop.build(R"("s": {"type": "start_tally"}, "t": {"type": "show_tally"},
+                                      "a": {"type": "add_to_tally"}, "b": {"type": "add_to_tally"})",
+                                   "t");
+    EXPECT_EQ(inputOf(g, "a", "tally"), "s.tally");
+    EXPECT_EQ(inputOf(g, "b", "tally"), "a.tally");
+    EXPECT_EQ(inputOf(g, "t", "tally"), "b.tally");
+    EXPECT_EQ(inputOf(g, "t", "tallyPrev"), "b.tally@prev");
+    EXPECT_EQ(complaint([&] { workshop.build(R"("t": {"type": "show_tally", "in": {"tallyPrev": "t@prev"}})", "t"); }),
+              "test.json:1:56: pass \"t\": input \"tally\" (Tally: in the end) is not wired; no pass of the graph makes one\n"
+              "test.json:1:104: pass \"t\": \"tallyPrev\" takes Tally, but t.image@prev is Image");
+}
+
 TEST(Graph, AnInputAndAnOutputMayShareTheirName) {
     fake::Workshop workshop;
     const char* passes = R"("r": {"type": "render"}, "s": {"type": "sharpen", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "s.color"}})";
@@ -104,6 +118,50 @@ TEST(Graph, BindsAStructThatOnlyOnePassMakes) {
     const std::string two = message(R"("a": {"type": "agree_on"}, "b": {"type": "agree_on"}, "f": {"type": "follow"})");
     EXPECT_NE(two.find("is not wired; made by: a.agreed, b.agreed"), std::string::npos) << two;
     EXPECT_NE(message(R"("f": {"type": "follow"})").find("no pass of the graph makes one"), std::string::npos);
+}
+
+TEST(Graph, WiresABundleByOneName) {
+    fake::Workshop workshop;
+    const char* passes = R"("e": {"type": "emit"}, "a": {"type": "drift", "in": {"particles": "e", "past": "b.particles@prev"}},
+                            "b": {"type": "drift", "in": {"particles": "a.particles"}},
+                            "all": {"type": "weigh", "in": {"masses": "b"}}, "one": {"type": "weigh", "in": {"masses": "e.particles.masses"}},
+                            "both": {"type": "mix", "in": {"a": "all", "b": "one"}})";
+    const Graph g = workshop.build(passes, "both");
+    EXPECT_EQ(inputOf(g, "a", "particles.places"), "e.particles.places");
+    EXPECT_EQ(inputOf(g, "a", "particles.masses"), "e.particles.masses");
+    EXPECT_EQ(inputOf(g, "a", "past.masses"), "b.particles.masses@prev");
+    EXPECT_EQ(inputOf(g, "b", "past.places"), "unwired");
+    EXPECT_EQ(inputOf(g, "all", "masses"), "b.particles.masses");  // a member alone, found by its type
+    EXPECT_EQ(inputOf(g, "one", "masses"), "e.particles.masses");
+    EXPECT_EQ(countOf(g, g.find("b"), 4, {8, 8}), 300u);           // like its own input, across both edges
+    EXPECT_EQ(bytesOf(g, g.find("b"), 5, {8, 8}), 300u * 4);
+    const Json in = *g.resolved().find("passes")->find("a")->find("in");
+    EXPECT_EQ(in.dump(-1), "{\"particles\": \"e.particles\", \"past\": \"b.particles@prev\"}");
+    const std::vector<Source> dumped = findSources(g, "b.particles");
+    ASSERT_EQ(dumped.size(), 2u);
+    EXPECT_EQ(g.nameOf(dumped[1]), "b.particles.masses");
+    EXPECT_EQ(workshop.build(passes, "b.particles.masses").show, dumped[1]);
+    EXPECT_EQ(complaint([&] { findSource(g, "b.masses"); }), "pass \"b\" has no port \"masses\"; did you mean \"particles.masses\"?");
+    EXPECT_EQ(complaint([&] { findSource(g, "b.particles"); }),
+              "\"b.particles\" is a bundle of 2 ports; name one: b.particles.places, b.particles.masses");
+}
+
+TEST(Graph, ABundleGoesThroughAPassThatIsOff) {
+    fake::Workshop workshop;
+    const Graph g = workshop.build(R"("e": {"type": "emit"}, "a": {"type": "drift", "off": true, "in": {"particles": "e"}},
+                                      "b": {"type": "drift", "in": {"particles": "a", "past": "a@prev"}}, "w": {"type": "weigh", "in": {"masses": "b"}})",
+                                   "w");
+    EXPECT_EQ(inputOf(g, "b", "particles.masses"), "e.particles.masses");
+    EXPECT_EQ(inputOf(g, "b", "past.places"), "e.particles.places@prev");
+}
+
+TEST(Graph, APassAloneIsItsOnlyOutputOfTheWantedType) {
+    fake::Workshop workshop;
+    const Graph g = workshop.build(R"("r": {"type": "render"}, "t": {"type": "tone_map", "in": {"color": "r"}},
+                                      "v": {"type": "values", "in": {"values": "r@prev"}})",
+                                   "v");
+    EXPECT_EQ(inputOf(g, "t", "color"), "r.color");
+    EXPECT_EQ(inputOf(g, "v", "values"), "r.values@prev");
 }
 
 TEST(Graph, ASwitchedOffPassHandsItsInputThrough) {

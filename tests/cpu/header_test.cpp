@@ -139,6 +139,25 @@ void main() {
     EXPECT_FALSE(compile(pass, bindings(pass, true, Format::rgba16f), text).words.empty());
 }
 
+TEST(Header, AMemberOfABundleIsReadByBothNames) {
+    const fake::Drift pass;
+    const std::string text = R"(#version 460
+#include "pass.glsl"
+void main() {
+    if (skip()) return;
+    uint i = pixelIndex(pixel());
+    float mass = particlesMasses(i) + pastMasses(i) + madeParticlesMasses(i) + float(particlesPlacesCount() + pastMassesCount());
+#if HAS_past
+    mass += 1;
+#endif
+    storeBetweenPlaces(i, particlesPlaces(i));
+    storeParticlesPlaces(i, betweenPlaces(i));
+    storeParticlesMasses(i, mass);
+}
+)";
+    for (const bool wired : {true, false}) EXPECT_FALSE(compile(pass, bindings(pass, wired, Format::rgba16f), text).words.empty()) << wired;
+}
+
 TEST(Header, ADriverOwnsTheLocalSize) {
     const Everything pass;
     const std::string driven = "#version 460\n#include \"pass.glsl\"\nlayout(local_size_x = 32) in;\nvoid main() { if (warming()) return; storeH(ivec2(0), 1u); }\n";
@@ -222,8 +241,14 @@ TEST(Header, RefusesNamesThatShadersCannotUse) {
         Out<Image>   snake{this, "snake_case", "", Format::r16f};
         Param<float> pixel{this, "pixel", 0.0f, {0, 1}, ""};
     } clash;
+    struct BundleClash final : Pass {
+        In<fake::Particles> particles{this, "particles", ""};
+        In<Image>           places{this, "particlesPlaces", ""};
+        In<fake::Particles> sample{this, "sample", ""};
+    } bundleClash;
     Problems problems;
     checkDeclaration(clash, "clash", {}, problems);
+    checkDeclaration(bundleClash, "bundles", {}, problems);
     std::string said;
     for (const Problem& problem : problems.list()) said += problem.text() + "\n";
     EXPECT_EQ(said,
@@ -232,7 +257,9 @@ TEST(Header, RefusesNamesThatShadersCannotUse) {
               "pass type \"clash\": port \"snake_case\" can't be a name in a shader; start with a small letter, then letters and digits\n"
               "pass type \"clash\": parameter \"pixel\" is a name that pass.glsl uses itself; choose another name\n"
               "pass type \"clash\": \"colorSize\" is what pass.glsl makes of port \"color\"; choose another name\n"
-              "pass type \"clash\": \"colorSize\" is what pass.glsl makes of port \"color\"; choose another name\n");
+              "pass type \"clash\": \"colorSize\" is what pass.glsl makes of port \"color\"; choose another name\n"
+              "pass type \"bundles\": port \"sample\" is a reserved word of GLSL; choose another name\n"
+              "pass type \"bundles\": \"particlesPlaces\" is what pass.glsl makes of port \"particles.places\"; choose another name\n");
 }
 
 }  // namespace

@@ -18,9 +18,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* twoPasses = R"(#include <framework/pass/pass.h>
+#include <array>
 using namespace lodestir;
-struct First final : Pass { Out<Image> image{this, "image", "an image", Format::r16f}; Param<int> n{this, "n", 3, {0, 9}, "a number"}; };
-struct Second final : Pass { In<Image> image{this, "image", "an image"}; Out<Image> copy{this, "copy", "a copy", Format::r16f}; };
+struct Stars {
+    static constexpr std::string_view name = "Stars";
+    static constexpr std::array members{bundled<vec4>("places", "where each is"), bundled<float>("ages", "how old")};
+};
+struct First final : Pass { Out<Image> image{this, "image", "an image", Format::r16f}; Out<Stars> stars{this, "stars", "stars", Count::fixed(9)}; Param<int> n{this, "n", 3, {0, 9}, "a number"}; };
+struct Second final : Pass { In<Image> image{this, "image", "an image"}; In<Stars> stars{this, "stars", "stars", Need::optional}; Out<Image> copy{this, "copy", "a copy", Format::r16f}; };
 LODESTIR_PASS(First, "first.comp", "Makes an image.")
 LODESTIR_PASS(Second, "second.comp", "Copies an image.")
 )";
@@ -78,8 +83,9 @@ TEST_F(Plugins, AreFoundByFolderAndStruct) {
     EXPECT_STREQ(libraries.find("pair.Second").shader, "second.comp");
     EXPECT_EQ(&libraries.find("pair.First"), &libraries.find("pair.First"));
     const PassType second = makePassType("pair.Second", libraries.find("pair.Second"));
-    ASSERT_EQ(second.pass->ports.size(), 2u);
-    EXPECT_EQ(second.pass->ports[1]->name, "copy");
+    ASSERT_EQ(second.pass->ports.size(), 4u);
+    EXPECT_EQ(second.pass->ports[2]->name, "stars.ages");
+    EXPECT_EQ(second.pass->ports[3]->name, "copy");
 }
 
 TEST_F(Plugins, SayWhatIsWrong) {
@@ -111,10 +117,12 @@ TEST_F(Plugins, AllLoadsWhatLoads) {
 TEST_F(Plugins, WorkInAGraph) {
     PluginLibraries libraries({root()});
     const Json json = Json::parse(
-        R"({"format": 1, "passes": {"a": {"type": "pair.First", "set": {"n": 4}}, "b": {"type": "pair.Second", "in": {"image": "a"}}}, "show": "b"})",
+        R"({"format": 1, "passes": {"a": {"type": "pair.First", "set": {"n": 4}}, "b": {"type": "pair.Second", "in": {"image": "a", "stars": "a"}}}, "show": "b"})",
         "g.json");
     const Graph graph = buildGraph(readDescription(json, "g.json"), libraries);
     EXPECT_EQ(graph.nameOf(graph.show), "b.copy");
+    EXPECT_EQ(graph.wiringOf(1, 1), "a.stars");  // a bundle that the framework has never heard of
+    EXPECT_EQ(graph.nameOf(*graph.nodes[1].inputs[2]), "a.stars.ages");
     EXPECT_EQ(std::get<int>(graph.nodes[0].pass->parameters[0]->value), 4);
 }
 

@@ -15,6 +15,8 @@ std::vector<PassType> types() {
     all.push_back(makePassType("lod_select", fake::plugin<fake::LodSelect>("LodSelect")));
     all.push_back(makePassType("render", fake::plugin<fake::Render>("Render")));
     all.push_back(makePassType("bake", fake::plugin<fake::Bake>("Bake")));
+    all.push_back(makePassType("drift", fake::plugin<fake::Drift>("Drift")));
+    all.push_back(makePassType("follow", fake::plugin<fake::Follow>("Follow")));
     return all;
 }
 
@@ -23,7 +25,7 @@ TEST(Schema, HasARuleForEachPass) {
     const Json schema = graphSchema(all);
     EXPECT_EQ(schema.find("$schema")->asString(), "https://json-schema.org/draft/2020-12/schema");
     const Json& rules = *schema.find("$defs")->find("pass")->find("allOf");
-    ASSERT_EQ(rules.items().size(), 4u);
+    ASSERT_EQ(rules.items().size(), 6u);
     const Json& blur = *rules.items()[0].find("then");
     EXPECT_EQ(rules.items()[0].find("if")->find("properties")->find("type")->find("const")->asString(), "blur");
     const Json& in = *blur.find("properties")->find("in");
@@ -39,6 +41,11 @@ TEST(Schema, HasARuleForEachPass) {
     EXPECT_EQ(lod.find("properties")->find("set")->find("properties")->find("mode")->find("enum")->dump(-1),
               "[\"finest\", \"distance\", \"schedule\"]");
     EXPECT_EQ(lod.find("properties")->find("in")->find("required"), nullptr);  // a World finds its source itself
+    EXPECT_EQ(rules.items()[5].find("then")->find("properties")->find("in")->find("required"), nullptr);  // so does a struct that one pass makes
+    const Json& drift = *rules.items()[4].find("then")->find("properties")->find("in");
+    EXPECT_EQ(drift.find("required")->dump(-1), "[\"particles\"]");
+    EXPECT_EQ(drift.find("properties")->find("particles")->find("description")->asString(), "Particles: before");
+    EXPECT_EQ(drift.find("properties")->find("particles.masses"), nullptr);
     EXPECT_FALSE(rules.items()[2].find("then")->find("properties")->find("off")->find("const")->asBool());
 }
 
@@ -53,6 +60,13 @@ TEST(Schema, GivesFacts) {
     EXPECT_EQ(color.find("role")->asString(), "out");
     EXPECT_EQ(color.find("format")->asString(), "rgba16f");
     EXPECT_EQ(render.find("ports")->items()[2].find("size")->asString(), "2 per pixel");
+    const Json drift = facts(all[4]), &after = drift.find("ports")->items()[2];
+    EXPECT_EQ(after.find("type")->asString(), "Particles");
+    EXPECT_EQ(after.find("size")->asString(), "like particles");
+    EXPECT_EQ(after.find("bytes"), nullptr);
+    ASSERT_EQ(after.find("members")->items().size(), 2u);
+    EXPECT_EQ(after.find("members")->items()[1].find("name")->asString(), "particles.masses");
+    EXPECT_EQ(after.find("members")->items()[1].find("bytes")->asInt(), 4);
     const Json& gain = render.find("parameters")->items()[0];
     EXPECT_EQ(gain.find("default")->asNumber(), 0.1);
     EXPECT_EQ(gain.find("kind")->asString(), "float");
@@ -67,6 +81,8 @@ TEST(Schema, WritesAPage) {
     EXPECT_NE(page.find("| mask | optional in | Image |  | where to blur |\n"), std::string::npos) << page;
     EXPECT_NE(page.find("| mode | finest \\| distance \\| schedule | \"finest\" | how levels are chosen |\n"), std::string::npos) << page;
     EXPECT_NE(page.find("Off: `glow` is `color`."), std::string::npos) << page;
+    EXPECT_NE(page.find("Off: `particles` is `particles`. Particles is places (Buffer<vec4>) and masses (Buffer<float>).\n"), std::string::npos) << page;
+    EXPECT_NE(page.find("| past | optional in | Particles |  | last frame's |\n"), std::string::npos) << page;
     EXPECT_NE(text(all[0]).find("  radius  int 1..16            8  half-width, pixels\n"), std::string::npos) << text(all[0]);
 }
 

@@ -35,7 +35,7 @@ TEST(EnsembleJudge, KnowsRightFromWrong) {
 
     // Other estimators of the same integral.
     const EnsembleResult light =
-        judge.judge(pathTracer({{"trace.bounces", Json(3)}, {"trace.spp", Json(12)}, {"trace.estimator", Json("light")}}));
+        judge.judge(pathTracer({{"trace.bounces", Json(3)}, {"trace.spp", Json(12)}, {"trace.technique", Json("light")}}));
     EXPECT_EQ(light.verdict, Verdict::unbiased) << light.reason;
 
     // Light of the third scattering is missing: some percent.

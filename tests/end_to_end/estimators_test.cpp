@@ -45,8 +45,8 @@ TEST_F(Estimators, AreaLight) {
     writeModel(folder, "room", room(true));
     writeScene(folder, "room", inside, constantEnvironment(Point(0)));
     const auto both = frames("room", "both", {{"spp", 16}, {"bounces", 5}}, "1");
-    const auto light = frames("room", "light", {{"spp", 16}, {"bounces", 5}, {"estimator", "light"}}, "2");
-    const auto bsdf = frames("room", "bsdf", {{"spp", 64}, {"bounces", 5}, {"estimator", "bsdf"}}, "3");
+    const auto light = frames("room", "light", {{"spp", 16}, {"bounces", 5}, {"technique", "light"}}, "2");
+    const auto bsdf = frames("room", "bsdf", {{"spp", 64}, {"bounces", 5}, {"technique", "bsdf"}}, "3");
     expectEqual(light, both, "light sampling against both");
     expectEqual(bsdf, both, "BSDF sampling against both");
     expectEqual(frames("room", "steady", {{"spp", 16}, {"bounces", 5}, {"roulette", false}}, "4"), both, "without roulette against with");
@@ -74,8 +74,8 @@ TEST_F(Estimators, Environment) {
     writeScene(folder, "blocks", {.position = {1.5, 2.6, 4.5}, .target = {-0.1, 0.4, 0}, .fovy = 40},
                {{"type", "map"}, {"file", "map.exr"}, {"rotationDegrees", 40}, {"strength", 1.0}});
     const auto both = frames("blocks", "both", {{"spp", 16}, {"bounces", 3}}, "1");
-    expectEqual(frames("blocks", "light", {{"spp", 32}, {"bounces", 3}, {"estimator", "light"}}, "2"), both, "light sampling against both");
-    expectEqual(frames("blocks", "bsdf", {{"spp", 32}, {"bounces", 3}, {"estimator", "bsdf"}}, "3"), both, "BSDF sampling against both");
+    expectEqual(frames("blocks", "light", {{"spp", 32}, {"bounces", 3}, {"technique", "light"}}, "2"), both, "light sampling against both");
+    expectEqual(frames("blocks", "bsdf", {{"spp", 32}, {"bounces", 3}, {"technique", "bsdf"}}, "3"), both, "BSDF sampling against both");
 }
 
 // Nothing can hit a point; the choice among several lights must not depend on the estimator.
@@ -91,9 +91,9 @@ TEST_F(Estimators, PointLight) {
                                         {"innerConeDegrees", 10},
                                         {"outerConeDegrees", 30}}}));
     const auto both = frames("room", "both", {{"spp", 24}, {"bounces", 3}}, "1");
-    expectEqual(frames("room", "light", {{"spp", 24}, {"bounces", 3}, {"estimator", "light"}}, "2"), both, "light sampling against both");
+    expectEqual(frames("room", "light", {{"spp", 24}, {"bounces", 3}, {"technique", "light"}}, "2"), both, "light sampling against both");
     // Lights without extent are sampled all the same; only the lamp is left to chance.
-    expectEqual(frames("room", "bsdf", {{"spp", 48}, {"bounces", 3}, {"estimator", "bsdf"}}, "3"), both, "BSDF sampling against both");
+    expectEqual(frames("room", "bsdf", {{"spp", 48}, {"bounces", 3}, {"technique", "bsdf"}}, "3"), both, "BSDF sampling against both");
 }
 
 // An unlit ceiling sends out what a lamp of that radiance would, but no light sample looks for it: all estimators have its light from the BSDF.
@@ -108,7 +108,7 @@ TEST_F(Estimators, UnlitSurfaceIsALampThatNobodySamples) {
     }
     const auto expected = frames("lamp", "lamp", {{"spp", 16}, {"bounces", 4}}, "1");
     for (const auto& [estimator, seed] : {std::pair("both", "2"), std::pair("light", "3"), std::pair("bsdf", "4")})
-        expectEqual(frames("unlit", estimator, {{"spp", 32}, {"bounces", 4}, {"estimator", estimator}}, seed), expected,
+        expectEqual(frames("unlit", estimator, {{"spp", 32}, {"bounces", 4}, {"technique", estimator}}, seed), expected,
                     std::string("unlit, ") + estimator);
     const Output scene = lodestir({"scene", (folder / "unlit.json").string(), "--json"});
     EXPECT_EQ(OrderedJson::parse(scene.out)["triangles"]["emissive"], 0) << "none is a light";

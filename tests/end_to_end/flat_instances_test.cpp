@@ -84,7 +84,7 @@ TEST_F(FlatInstances, LampsShineLikeSheets) {
                             {"models", {{"ground", {{"file", "ground.gltf"}}}, {"lamp", {{"file", "lamp.gltf"}}}}},
                             {"environment", constantEnvironment(Point(0))},
                             {"camera", {{"position", {0, 0.9, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"fovy", 60}}}});
-        const std::vector<ImageData> images = trace("lamp", 1, {{"spp", 4096}, {"bounces", 1}, {"estimator", estimator}});
+        const std::vector<ImageData> images = trace("lamp", 1, {{"spp", 4096}, {"bounces", 1}, {"technique", estimator}});
         return images.empty() ? 0 : meanOf(images[0]);
     };
     const double sheet = lit(false, "both");

@@ -59,12 +59,12 @@ const Paint roughMetal{.color = Point(1), .metallic = 1, .roughness = 0.7, .ior 
 
 // Directions in proportion to the cosine carry a weight of exactly 1.
 TEST_F(Furnace, DiffuseHasNoNoise) {
-    expectInvisible(frames("diffuse", diffuse, {{"spp", 1}, {"bounces", 2}, {"estimator", "bsdf"}}, 2), 1e-4f);
+    expectInvisible(frames("diffuse", diffuse, {{"spp", 1}, {"bounces", 2}, {"technique", "bsdf"}}, 2), 1e-4f);
 }
 
 TEST_F(Furnace, DiffuseByLightSampling) {
     expectSame(frames("both", diffuse, {{"spp", 16}, {"bounces", 2}}), ones(), 0.005);
-    expectSame(frames("light", diffuse, {{"spp", 64}, {"bounces", 2}, {"estimator", "light"}}), ones(), 0.005);
+    expectSame(frames("light", diffuse, {{"spp", 64}, {"bounces", 2}, {"technique", "light"}}), ones(), 0.005);
 }
 
 TEST_F(Furnace, MirrorHasNoNoise) { expectInvisible(frames("mirror", mirror, {{"spp", 1}, {"bounces", 2}}, 2), 1e-4f); }
@@ -87,7 +87,7 @@ TEST_F(Furnace, AllLayersLoseLittleAndMakeNothing) {
                   {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.4}, {"anisotropyRotation", 0.5}}},
                   {"KHR_materials_specular", {{"specularFactor", 0.9}, {"specularColorFactor", {3.0, 3.0, 3.0}}}}};
     const auto both = frames("layers", all, {{"spp", 64}, {"bounces", 32}});
-    const auto scattered = frames("layers_bsdf", all, {{"spp", 64}, {"bounces", 32}, {"estimator", "bsdf"}});
+    const auto scattered = frames("layers_bsdf", all, {{"spp", 64}, {"bounces", 32}, {"technique", "bsdf"}});
     ASSERT_FALSE(HasFailure());
     expectSame(both, scattered, 0.005);
     const double energy = energyOf(both);

@@ -13,9 +13,9 @@ namespace {
 /// graphs/restir_lod.json without tone mapping, its temporal paths kept by themselves.
 OrderedJson reuseNodes(OrderedJson temporal = OrderedJson::object()) {
     OrderedJson in = pathsOf("initial", "temporal");
-    in.update(OrderedJson{{"worldPrev", "lod.world@prev"}, {"uv", "uv"}});
+    in.update(OrderedJson{{"worldPrev", "lod@prev"}, {"uv", "uv"}});
     OrderedJson hits = hitsNode();
-    hits["in"]["worldPrev"] = "lod.world@prev";
+    hits["in"]["worldPrev"] = "lod@prev";
     return {{"lod", {{"type", "lod_select"}}},
             {"uv", {{"type", "lod_uv_bvh_build"}}},
             {"hits", hits},
@@ -70,12 +70,12 @@ TEST_F(Images, OneOfTwoInstances) {
     const Path scene = write("two", {"bowl"}, OrderedJson::array({OrderedJson{{"frame", 3}, {"level", 1}, {"instance", "left"}}}),
                              {{"instances", OrderedJson::array({OrderedJson{{"model", "bowl"}, {"name", "left"}, {"translation", {-0.9, 0, 0}}, {"scale", 0.8}},
                                                                 OrderedJson{{"model", "bowl"}, {"name", "right"}, {"translation", {0.9, 0, 0}}, {"scale", 0.8}}})}});
-    Frames frames(scene, {64, 36}, reuseNodes({{"backup", 0}}), {"shade.color", "temporal.samples", "initial.samples", "temporal.landed"});
+    Frames frames(scene, {64, 36}, reuseNodes({{"backup", 0}}), {"shade.color", "temporal.paths.samples", "initial.paths.samples", "temporal.landed"});
     frames.run(3);
     // A coordinate is carried along; where x1 is found by tracing again it is that of the same point, but for rounding.
-    std::vector<SampleHit> before = frames.records<SampleHit>("temporal.samples");
+    std::vector<SampleHit> before = frames.records<SampleHit>("temporal.paths.samples");
     frames.run();
-    const std::vector<SampleHit> now = frames.records<SampleHit>("temporal.samples"), fresh = frames.records<SampleHit>("initial.samples");
+    const std::vector<SampleHit> now = frames.records<SampleHit>("temporal.paths.samples"), fresh = frames.records<SampleHit>("initial.paths.samples");
     const std::uint32_t left = 0, fine = 20 * 20 * 2;
     std::array<std::size_t, 2> kept{};
     for (std::size_t i = 0; i < now.size(); ++i) {
@@ -192,8 +192,7 @@ TEST_F(Images, ReusePays) {
         const ImageData right = reference.image("trace.color");
 
         OrderedJson nodes = reuseNodes();
-        nodes["temporal"]["in"]["history"] = "spatial.reservoirs@prev";
-        nodes["temporal"]["in"]["historySamples"] = "spatial.samples@prev";
+        nodes["temporal"]["in"]["history"] = "spatial@prev";
         nodes["spatial"] = node("spatial_reuse", pathsOf("temporal"), {{"radius", 5}});
         nodes["alone"] = node("spatial_reuse", pathsOf("initial"), {{"radius", 5}});
         nodes["both"] = shadeNode("spatial");

@@ -19,11 +19,7 @@ const std::vector<std::string> techniques{"trace.color", "direct.color", "shade.
 OrderedJson passes(int bounces, int spp) {
     return {{"trace", {{"type", "path_tracer"}, {"set", {{"bounces", bounces}, {"spp", spp}, {"pixelCentre", true}}}}},
             {"hits", hitsNode()},
-            {"direct", node("restir_di", {{"hits", "hits.hits"},
-                                          {"hitsPrev", "hits.hits@prev"},
-                                          {"motion", "hits.motion"},
-                                          {"worldPrev", "scene.world@prev"},
-                                          {"history", "direct.reservoirs@prev"}})},
+            {"direct", node("restir_di", {{"hits", "hits"}, {"hitsPrev", "hits@prev"}, {"motion", "hits.motion"}, {"history", "direct@prev"}})},
             {"initial", initialNode({{"bounces", bounces}, {"pixelCentre", true}})},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
             {"spatial", node("spatial_reuse", pathsOf("temporal"), {{"radius", 5}})},

@@ -126,7 +126,7 @@ TEST_F(Radiosity, UniformEnclosureHasItsClosedForm) {
         // BSDF sampling meets the same radiance whatever it hits: no noise but rounding. Roulette would bring some.
         const auto exact =
             render("exact",
-                   writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"estimator", "bsdf"}, {"roulette", false}}),
+                   writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"technique", "bsdf"}, {"roulette", false}}),
                    "trace", 1, {});
         ASSERT_EQ(exact.size(), 1u);
         for (int y = 0; y < 32; ++y)

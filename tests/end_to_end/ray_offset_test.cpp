@@ -140,7 +140,7 @@ TEST_F(RayOffsets, ShadesCloseToLampsHold) {
                 writeModel(folder, "lamp", quads);
                 writeScene(folder, "lamp", {{0, 0.5 * away, 0}, {0, 0, 0}, {0, 0, -1}, 40}, constantEnvironment(Point(0)), lights);
                 const Path graph =
-                    writeGraph(folder, "lamp", 16, 16, {{"spp", 16}, {"bounces", 1}, {"pixelCentre", true}, {"estimator", "light"}});
+                    writeGraph(folder, "lamp", 16, 16, {{"spp", 16}, {"bounces", 1}, {"pixelCentre", true}, {"technique", "light"}});
                 const std::vector<ImageData> images = ProgramTest::render("lamp.out", graph, "trace", 1, {});
                 ASSERT_EQ(images.size(), 1u);
                 for (int py = 0; py < 16; ++py) {

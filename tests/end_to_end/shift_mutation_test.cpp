@@ -178,7 +178,7 @@ TEST_F(Mutations, Energy) {
         images.push_back(fault + "_image");
     }
     for (const char* fault : {"one_percent", "three_percent"}) {
-        passes[std::string(fault) + "_image"] = node(fault, {{"reservoirs", "right_reuse.reservoirs"}});
+        passes[std::string(fault) + "_image"] = node(fault, {{"paths", "right_reuse"}});
         images.push_back(std::string(fault) + "_image");
         faults.push_back(fault);
     }

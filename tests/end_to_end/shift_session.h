@@ -15,27 +15,21 @@ namespace lodestir::test {
 
 /// Nodes that graphs of reservoirs are put together from.
 inline OrderedJson hitsNode() {
-    return {{"type", "visibility"}, {"in", {{"worldPrev", "scene.world@prev"}}}, {"set", {{"pixelCentre", true}, {"lens", false}}}};
+    return {{"type", "visibility"}, {"in", {{"worldPrev", "scene@prev"}}}, {"set", {{"pixelCentre", true}, {"lens", false}}}};
 }
 inline OrderedJson initialNode(OrderedJson set) { return {{"type", "initial_sampling"}, {"set", std::move(set)}}; }
 /// Inputs of a pass that takes the paths of `paths`.
-inline OrderedJson pathsOf(const std::string& paths) {
-    return {{"hits", "hits.hits"}, {"reservoirs", paths + ".reservoirs"}, {"samples", paths + ".samples"}};
-}
+inline OrderedJson pathsOf(const std::string& paths) { return {{"hits", "hits"}, {"paths", paths}}; }
 /// The same with the paths that `history` left last frame.
 inline OrderedJson pathsOf(const std::string& paths, const std::string& history) {
     OrderedJson in = pathsOf(paths);
-    in.update(OrderedJson{{"hitsPrev", "hits.hits@prev"},
-                          {"motion", "hits.motion"},
-                          {"worldPrev", "scene.world@prev"},
-                          {"history", history + ".reservoirs@prev"},
-                          {"historySamples", history + ".samples@prev"}});
+    in.update(OrderedJson{{"hitsPrev", "hits@prev"}, {"motion", "hits.motion"}, {"worldPrev", "scene@prev"}, {"history", history + "@prev"}});
     return in;
 }
 inline OrderedJson node(const std::string& type, OrderedJson in, OrderedJson set = OrderedJson::object()) {
     return {{"type", type}, {"in", std::move(in)}, {"set", std::move(set)}};
 }
-inline OrderedJson shadeNode(const std::string& paths) { return node("shade_reservoirs", {{"reservoirs", paths + ".reservoirs"}}); }
+inline OrderedJson shadeNode(const std::string& paths) { return node("shade_reservoirs", {{"paths", paths}}); }
 
 struct ShiftSessionSetup {
     Path scene;

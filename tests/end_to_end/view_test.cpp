@@ -135,7 +135,7 @@ protected:
                              {"passes",
                               {{"trace", {{"type", "path_tracer"}}},
                                {"accumulate", {{"type", "accumulate"}, {"in", {{"color", "trace"}}}}},
-                               {"display", {{"type", "tone_map"}, {"in", {{"color", "accumulate.mean"}}}, {"set", {{"exposure", exposure}}}}}}},
+                               {"display", {{"type", "tone_map"}, {"in", {{"color", "accumulate"}}}, {"set", {{"exposure", exposure}}}}}}},
                              {"show", "display"},
                              {"variants", {{"dim", {{"passes", {{"display", {{"set", {{"exposure", -3}}}}}}}}}}}});
         return folder / "graph.json";
@@ -324,7 +324,7 @@ TEST(CutFrames, HaveTheSameBits) {
     options.graph = sourceFolder / "graphs/restir_pt.json";
     options.changes.size = glm::uvec2(150, 83);
     options.changes.scene = sourceFolder / "scenes/cornell_glossy.json";
-    options.dumps = {"spatial.reservoirs", "hits.motion"};
+    options.dumps = {"spatial.paths.reservoirs", "hits.motion"};
     const auto render = [&](double slice) {
         Session session(options, {.device = device, .slice = slice});
         std::vector<std::vector<std::byte>> results;

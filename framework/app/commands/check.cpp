@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <memory>
 
 namespace lodestir {
@@ -48,7 +50,7 @@ int check(const Options& options) {
     Problems problems;
     const Graph graph = buildGraph(loadDescription(options.session.graph, options.session.changes), libraries);
     std::vector<Source> pinned;
-    for (const std::string& dump : options.session.dumps) pinned.push_back(findSource(graph, dump, Where{"--dump"}));
+    for (const std::string& dump : options.session.dumps) std::ranges::copy(findSources(graph, dump, Where{"--dump"}), std::back_inserter(pinned));
     if (!options.session.changes.variant) checkVariants(options, graph.description.variants, libraries, problems);
     problems.raise();
     const Plan plan = makePlan(graph, pinned, {.allBarriers = options.session.allBarriers});

@@ -24,14 +24,14 @@ struct Path {
 
 // Weight of light that the path runs into, which light sampling would have found with density `pdfLight` (0: never).
 float emissionWeight(float pdf, float pdfLight) {
-    if (pdf == 0 || pdfLight == 0 || params.estimator == estimator_bsdf) return 1;
-    return params.estimator == estimator_light ? 0 : misWeight(pdf, pdfLight);
+    if (pdf == 0 || pdfLight == 0 || params.technique == technique_bsdf) return 1;
+    return params.technique == technique_light ? 0 : misWeight(pdf, pdfLight);
 }
 
 // Weight of a light sample, whose direction BSDF sampling would have found with density `pdfBsdf`.
 float directWeight(LightSample l, float pdfBsdf) {
-    if (l.delta || params.estimator == estimator_light) return 1;
-    return params.estimator == estimator_bsdf ? 0 : misWeight(l.pdf, pdfBsdf);
+    if (l.delta || params.technique == technique_light) return 1;
+    return params.technique == technique_bsdf ? 0 : misWeight(l.pdf, pdfBsdf);
 }
 
 uint pathItems() { return uint(params.spp); }

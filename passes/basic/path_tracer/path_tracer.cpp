@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Unidirectional path tracing: the reference that other techniques are judged by, and the baseline they have to beat.
 #include <framework/pass/pass.h>
+#include <passes/basic/light_technique.h>
 
 using namespace lodestir;
 
-enum class Estimator { both, light, bsdf };
-
 struct PathTracer final : Pass {
-    In<World>        world{this, "world", "the scene"};
-    Out<Image>       color{this, "color", "mean radiance of this frame's samples, linear Rec. 709", Format::rgba32f};
-    Param<int>       spp{this, "spp", 1, {1, 4096}, "samples a pixel and frame"};
-    Param<int>       bounces{this, "bounces", 4, {0, 64}, "most scatterings of a path; 1 is direct light only"};
-    Param<Estimator> estimator{this,
-                               "estimator",
-                               Estimator::both,
-                               {"both", "light", "bsdf"},
-                               "how light is found: light sampling and BSDF sampling joined by the balance heuristic, or one of them alone "
-                               "(lights without extent are always sampled, unlit surfaces never)"};
-    Param<bool>      roulette{this, "roulette", true, "Russian roulette on the throughput"};
-    Param<int>       rouletteStart{this, "rouletteStart", 3, {1, 64}, "first scattering that roulette may end a path after"};
-    Param<bool>      pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};
+    In<World>      world{this, "world", "the scene"};
+    Out<Image>     color{this, "color", "mean radiance of this frame's samples, linear Rec. 709", Format::rgba32f};
+    Param<int>     spp{this, "spp", 1, {1, 4096}, "samples a pixel and frame"};
+    Param<int>     bounces{this, "bounces", 4, {0, 64}, "most scatterings of a path; 1 is direct light only"};
+    LightTechnique found{this};
+    Param<bool>    roulette{this, "roulette", true, "Russian roulette on the throughput"};
+    Param<int>     rouletteStart{this, "rouletteStart", 3, {1, 64}, "first scattering that roulette may end a path after"};
+    Param<bool>    pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};
 };
 LODESTIR_PASS(PathTracer, "path_tracer.comp", "Path tracing with next-event estimation, multiple importance sampling and Russian roulette.")

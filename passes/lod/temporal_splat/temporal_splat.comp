@@ -34,11 +34,11 @@ void main() {
     if (skip()) return;
     ivec2 p = pixel();
     uint i = pixelIndex(p), start = starts(i), count = counts(i);
-    Reservoir own = reservoirs(i), kept = own;
-    SampleHit keptHit = samples(i);
+    Reservoir own = pathsReservoirs(i), kept = own;
+    SampleHit keptHit = pathsSamples(i);
     ivec2 before = pixelBefore(p, motion(p));
     bool hasBefore = historyValid() && inside(before);
-    float inherited = hasBefore ? cappedConfidence(confidence(history(pixelIndex(before))), params.cap) : 0;
+    float inherited = hasBefore ? cappedConfidence(confidence(historyReservoirs(pixelIndex(before))), params.cap) : 0;
     float backup = inherited > 0 ? params.backup : 0;  // hangs on confidence alone, so each path of the pixel finds the same
     float mine = confidence(own);
     uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
@@ -49,7 +49,7 @@ void main() {
     for (uint k = 0; k < count; ++k) {
         uint source = lists(start + k);
         Landing landing = landings(source);
-        Reservoir path = shifted(source);
+        Reservoir path = shiftedReservoirs(source);
         float m = pastMis(1 - backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
         if (!risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, k, RANDOM_FREE))) continue;
         kept = path;
@@ -57,7 +57,7 @@ void main() {
     }
     Landing landing = gatherings(i);
     if (backup > 0 && landing.target == i) {
-        Reservoir path = gathered(i);
+        Reservoir path = gatheredReservoirs(i);
         float m = pastMis(backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
         if (risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, count, RANDOM_FREE + 1))) {
             kept = path;
@@ -66,7 +66,7 @@ void main() {
     }
     kept.W = contributionWeight(ris, target(kept));
     setConfidence(kept, mine + inherited * mix(origins(i).kept, 1, backup));
-    storeReservoirs(i, kept);
-    storeSamples(i, keptHit);
+    storePathsReservoirs(i, kept);
+    storePathsSamples(i, keptHit);
     storeLanded(p, float(count));
 }

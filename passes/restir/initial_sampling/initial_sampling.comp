@@ -67,9 +67,9 @@ void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
 void pathEnd(Path p, ivec2 pixel) {
     Reservoir r = treesReservoir(p.tree, p.trees);
     setConfidence(r, float(p.trees) / float(params.candidates));
-    storeReservoirs(pixelIndex(pixel), r);
-    if (holdsPath(r)) storeSamples(pixelIndex(pixel), p.tree.keptHit);
-    else storeSamples(pixelIndex(pixel), p.tree.first);
+    storePathsReservoirs(pixelIndex(pixel), r);
+    if (holdsPath(r)) storePathsSamples(pixelIndex(pixel), p.tree.keptHit);
+    else storePathsSamples(pixelIndex(pixel), p.tree.first);
 }
 
 #include "trace/driver.glsl"

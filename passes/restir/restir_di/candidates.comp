@@ -7,6 +7,7 @@
 #version 460
 #include "pass.glsl"
 #include "light_target.glsl"
+#include "restir/similar_pixels.glsl"
 #include "trace/trace.glsl"
 
 struct Path {
@@ -118,7 +119,7 @@ void mergeHistory(inout Path p, World w, ivec2 pixel) {
     if (!inside(before)) return;
     World last = worldPrev();
     PrimaryHit here = hits(pixelIndex(pixel)), there = hitsPrev(pixelIndex(before));
-    if (!similarViews(pixelView(w, here), pixelView(last, there), params.normal, params.depth)) return;
+    if (!similarPixels(pixelView(w, here), pixelView(last, there))) return;
     LightReservoir past = history(pixelIndex(before)), own = p.kept;
     past.M = cappedConfidence(past.M, params.cap);
     float pastTarget = targetAt(w, litSurface(w, pixel, frameSize(), here), past), back = targetAt(last, litSurface(last, before, frameSize(), there), own);

@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "light_target.glsl"
+#include "restir/similar_pixels.glsl"
 #include "trace/trace.glsl"
 
 struct Path {
@@ -21,7 +22,7 @@ uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(),
 ivec2 neighbourOf(World w, ivec2 pixel, uint i) {
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
     if (!inside(q)) return pixel;
-    return similarViews(pixelView(w, hits(pixelIndex(pixel))), pixelView(w, hits(pixelIndex(q))), params.normal, params.depth) ? q : pixel;
+    return similarPixels(pixelView(w, hits(pixelIndex(pixel))), pixelView(w, hits(pixelIndex(q)))) ? q : pixel;
 }
 
 LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {

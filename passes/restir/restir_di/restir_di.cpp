@@ -2,6 +2,9 @@
 // Direct light by resampling light points: the separate first stage beside a ReSTIR PT that leaves direct light out.
 #include <framework/pass/pass.h>
 #include <framework/shaders/world/primary_hit.h>
+#include <passes/restir/history.h>
+#include <passes/restir/similarity.h>
+
 #include "light_reservoir.h"
 
 using namespace lodestir;
@@ -18,11 +21,9 @@ struct RestirDi final : Pass {
     Scratch<Buffer<LightReservoir>> merged{this, "merged", "after temporal reuse, before spatial reuse", Count::perPixel()};
     Scratch<Image>                  mirrored{this, "mirrored", "light that a delta lobe found, which no light sample can compete with", Format::rgba32f};
     Param<int>                      candidates{this, "candidates", 32, {1, 256}, "light samples a pixel and frame, beside one BSDF sample"};
-    Param<float>                    cap{this, "cap", 20, {0, 1000}, "most confidence of last frame's point, in frames' own; 0: no temporal reuse"};
+    History                         reused{this};
     Param<int>                      neighbours{this, "neighbours", 3, {0, 16}, "neighbours whose points are reused; 0: no spatial reuse"};
-    Param<float>                    radius{this, "radius", 20, {1, 200}, "of the disk that neighbours are drawn from, pixels"};
-    Param<float>                    normal{this, "normal", 0.5f, {-1, 1}, "least cosine between the normals of pixels that are alike"};
-    Param<float>                    depth{this, "depth", 0.1f, {0, 1e6f}, "most difference of depth between pixels that are alike, relative"};
+    Neighbourhood                   around{this};
 
     void execute(Frame& frame) override {
         frame.dispatch("candidates.comp", frame.size());

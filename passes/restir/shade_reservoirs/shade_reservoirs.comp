@@ -36,16 +36,12 @@ vec3 contentOf(ivec2 p, Reservoir r) {
     if (params.view == view_segments) return vec3(float(shape.d) / 8);
     if (params.view == view_reconnection) return vec3(float(shape.k) / 8);
     if (params.view == view_technique) return vec3(shape.nee, !shape.nee, shape.light == PATH_LIGHT_ENVIRONMENT);
-#if HAS_samples
-    return vec3(samples(pixelIndex(p)).hit.film, 0);
-#else
-    return vec3(0);
-#endif
+    return vec3(pathsSamples(pixelIndex(p)).hit.film, 0);
 }
 
 void main() {
     if (skip()) return;
     ivec2 p = pixel();
-    Reservoir r = reservoirs(pixelIndex(p));
+    Reservoir r = pathsReservoirs(pixelIndex(p));
     storeColor(p, vec4(params.view == view_radiance ? radianceOf(p, r) : contentOf(p, r), 1));
 }

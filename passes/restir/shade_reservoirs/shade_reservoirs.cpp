@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From reservoirs to an image.
 #include <framework/pass/pass.h>
-#include <passes/restir/reservoir.h>
-#include <passes/restir/sample_hit.h>
+#include <passes/restir/paths.h>
 
 using namespace lodestir;
 
@@ -11,8 +10,7 @@ enum class View { radiance, confidence, segments, reconnection, technique, place
 struct ShadeReservoirs final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits, for `emission`", Need::optional};
-    In<Buffer<Reservoir>>  reservoirs{this, "reservoirs", "a path of each pixel"};
-    In<Buffer<SampleHit>>  samples{this, "samples", "where each path begins, for the view of its place", Need::optional};
+    In<Paths>              paths{this, "paths", "a path of each pixel"};
     In<Image>              resampled{this, "color", "radiance from the weights of all candidates, taken instead of the kept path's", Need::optional};
     In<Image>              more{this, "add", "light that the reservoirs leave out, added", Need::optional};
     Out<Image>             color{this, "color", "radiance, linear Rec. 709; or what `view` asks for", Format::rgba32f};

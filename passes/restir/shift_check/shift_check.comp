@@ -6,7 +6,8 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
-#include "world/same_scene.glsl"
+#include "restir/similar_pixels.glsl"
+#include "restir/suffix.glsl"
 
 struct Reuse {
     Reservoir path;     // before the round trip
@@ -24,7 +25,7 @@ uint place(ivec2 p) { return pixelIndex(p); }
 
 #if HAS_history
 const bool BETWEEN_FRAMES = true;
-Reservoir partnerReservoir(ivec2 p) { return history(place(p)); }
+Reservoir partnerReservoir(ivec2 p) { return historyReservoirs(place(p)); }
 SampleHit partnerSample(ivec2 p) { return historySamples(place(p)); }
 PrimaryHit partnerCentre(ivec2 p) { return hitsPrev(place(p)); }
 bool mayPair() { return historyValid(); }
@@ -33,8 +34,8 @@ ivec2 choosePartner(ivec2 pixel) { return pixelBefore(pixel, motion(pixel)); }
 bool alike(World w, ivec2 pixel, ivec2 q) { return true; }
 #else
 const bool BETWEEN_FRAMES = false;
-Reservoir partnerReservoir(ivec2 p) { return reservoirs(place(p)); }
-SampleHit partnerSample(ivec2 p) { return samples(place(p)); }
+Reservoir partnerReservoir(ivec2 p) { return pathsReservoirs(place(p)); }
+SampleHit partnerSample(ivec2 p) { return pathsSamples(place(p)); }
 PrimaryHit partnerCentre(ivec2 p) { return hits(place(p)); }
 bool mayPair() { return true; }
 World partnerWorld() { return world(); }

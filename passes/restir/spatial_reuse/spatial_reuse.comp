@@ -6,6 +6,8 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
+#include "restir/similar_pixels.glsl"
+#include "restir/similar_pixels.glsl"
 
 struct Reuse {
     Reservoir own;
@@ -25,12 +27,12 @@ struct Reuse {
 uint place(ivec2 p) { return pixelIndex(p); }
 
 Reservoir inputReservoir(ivec2 p) {
-    if (argument(1) == 0) return reservoirs(place(p));
-    return argument(1) == 1 ? madeReservoirs(place(p)) : reservoirsBetween(place(p));
+    if (argument(1) == 0) return pathsReservoirs(place(p));
+    return argument(1) == 1 ? madePathsReservoirs(place(p)) : betweenReservoirs(place(p));
 }
 SampleHit inputSample(ivec2 p) {
-    if (argument(1) == 0) return samples(place(p));
-    return argument(1) == 1 ? madeSamples(place(p)) : samplesBetween(place(p));
+    if (argument(1) == 0) return pathsSamples(place(p));
+    return argument(1) == 1 ? madePathsSamples(place(p)) : betweenSamples(place(p));
 }
 
 uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + argument(0)); }
@@ -39,7 +41,7 @@ uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(),
 ivec2 neighbourOf(World w, ivec2 pixel, PixelView mine, uint i) {
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
     if (!inside(q)) return pixel;
-    return similarViews(mine, pixelView(w, hits(place(q))), params.normal, params.depth) ? q : pixel;
+    return similarPixels(mine, pixelView(w, hits(place(q)))) ? q : pixel;
 }
 
 uint reusePartners() { return uint(params.neighbours); }
@@ -107,11 +109,11 @@ void reuseEnd(Reuse r, ivec2 pixel) {
     r.kept.W = contributionWeight(r.ris, target(r.kept));
     setConfidence(r.kept, r.pairs.canonical + r.pairs.neighbours);
     if (argument(2) != 0) {
-        storeReservoirs(place(pixel), r.kept);
-        storeSamples(place(pixel), r.keptHit);
+        storePathsReservoirs(place(pixel), r.kept);
+        storePathsSamples(place(pixel), r.keptHit);
     } else {
-        storeReservoirsBetween(place(pixel), r.kept);
-        storeSamplesBetween(place(pixel), r.keptHit);
+        storeBetweenReservoirs(place(pixel), r.kept);
+        storeBetweenSamples(place(pixel), r.keptHit);
     }
     if (argument(0) + 1 == uint(params.rounds)) storeColor(pixel, vec4(r.radiance, 1));
 }

@@ -6,7 +6,8 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
-#include "world/same_scene.glsl"
+#include "restir/similar_pixels.glsl"
+#include "restir/suffix.glsl"
 
 struct Reuse {
     Reservoir own, past;
@@ -84,8 +85,8 @@ void reuseEnd(Reuse r, ivec2 pixel) {
         kept.W = contributionWeight(ris, target(kept));
         setConfidence(kept, mine + r.confidence);
     }
-    storeReservoirs(place(pixel), kept);
-    storeSamples(place(pixel), keptHit);
+    storePathsReservoirs(place(pixel), kept);
+    storePathsSamples(place(pixel), keptHit);
 }
 
 #include "restir/reuse_driver.glsl"
