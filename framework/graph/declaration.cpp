@@ -95,21 +95,13 @@ private:
     /// colorSize() of port color would meet a port named colorSize.
     void checkGenerated(const Port& port) {
         if (port.name.empty()) return;
-<<<<<<< HEAD
-        const std::string name(port.name);
+        const std::string name = port.identifier();
         std::string capital = name;
         capital[0] = char(std::toupper(static_cast<unsigned char>(capital[0])));
-        for (const std::string& made : {name + "Size", name + "Count", name + "Rgba", "store" + capital, "add" + capital}) {
-            if (names_.contains(made)) add(fmt::format("\"{}\" is what pass.glsl makes of port \"{}\"", made, name), "choose another name");
-=======
-        const std::string name = port.identifier();
-        std::string store = "store" + name;
-        store[5] = char(std::toupper(static_cast<unsigned char>(store[5])));
-        std::vector<std::string> made{name + "Size", name + "Count", name + "Rgba", store};
+        std::vector<std::string> made{name + "Size", name + "Count", name + "Rgba", "store" + capital, "add" + capital};
         if (port.bundle) made.push_back(name);
         for (const std::string& text : made) {
             if (names_.contains(text)) add(fmt::format("\"{}\" is what pass.glsl makes of port \"{}\"", text, port.name), "choose another name");
->>>>>>> wires
         }
     }
 

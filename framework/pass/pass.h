@@ -8,13 +8,9 @@
 //     };
 //     LODESTIR_PASS(Bloom, "bloom.comp", "Gaussian of the highlights, at half resolution.")
 //
-<<<<<<< HEAD
-// The shader starts with #include "pass.glsl", which is made from this declaration. A pass sees this header, framework/pass/scene.h and image.h beside it,
-// what is shared with shaders, and the families of passes; nothing else of the framework is on its include path.
-=======
 // The shader starts with #include "pass.glsl", which is made from this declaration. Buffers that always travel together are one port (bundle.h);
-// parameters that passes share are one member (parameter.h).
->>>>>>> wires
+// parameters that passes share are one member (parameter.h). A pass sees this header, framework/pass/scene.h and image.h beside it, what is shared
+// with shaders, and the families of passes; nothing else of the framework is on its include path.
 #pragma once
 #include <framework/core/error.h>  // what execute() throws
 #include <framework/pass/bundle.h>
@@ -32,18 +28,11 @@
 
 namespace lodestir {
 
-<<<<<<< HEAD
-struct Scene;         // framework/pass/scene.h
-struct SceneRecords;  // the same
-=======
 /// lod_select takes a World and makes one.
 template <> inline constexpr bool isChained<World> = true;
 
-struct Scene;
-namespace gpu {
-class Device;
-}
->>>>>>> wires
+struct Scene;         // framework/pass/scene.h
+struct SceneRecords;  // the same
 
 /// When a pass runs: every frame, or only when an input's content or a parameter changed (its time then counts as set-up).
 enum class Cadence : std::uint8_t { everyFrame, onChange };

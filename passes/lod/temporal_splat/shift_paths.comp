@@ -9,7 +9,7 @@
 #include "restir/neighbours.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
-#include "world/same_scene.glsl"
+#include "restir/suffix.glsl"
 
 // How a pixel and its partner in last frame find each other.
 const uint SPLATTED = 0;     // by where the first hit is
@@ -44,10 +44,10 @@ LevelMapping levelMapping() {
 void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.origins = Origins(0, 0, 0, 0);
     if (reusePartners() == 0) return;
-    r.own = reservoirs(place(pixel));
-    r.ownHit = samples(place(pixel));
+    r.own = pathsReservoirs(place(pixel));
+    r.ownHit = pathsSamples(place(pixel));
     r.before = pixelBefore(pixel, motion(pixel));
-    r.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(w, worldPrev()));
+    r.refresh = walksSuffix(w, worldPrev());
 }
 
 ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
@@ -62,7 +62,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     // Whose confidence counts is not known yet where this frame's path is splatted back: it depends on where it lands.
     if (!splats || way == FORTH) {
         ivec2 past = splats ? pixel : r.before;
-        Reservoir old = history(place(past));
+        Reservoir old = historyReservoirs(place(past));
         r.confidence = capped(old);
         if (r.confidence == 0 || (splats && !holdsPath(old))) return shiftOfNothing();
         if (way == FORTH) {
@@ -85,7 +85,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     if (splats) {
         if (!project(to, pixel, frameSize(), first, cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction, r.landing)) return shiftOfNothing();
         if (way == BACK) {
-            r.confidence = capped(history(place(r.landing)));
+            r.confidence = capped(historyReservoirs(place(r.landing)));
             if (r.confidence == 0) return shiftOfNothing();
         }
         jacobian *= jacobianRatio(filmTerm(to, r.landing, frameSize(), first), filmTerm(from, pixel, frameSize(), start));
@@ -106,10 +106,10 @@ void arrive(inout Reuse r, ivec2 pixel, uint partner, Shift result) {
     if (good) landing.target = place(r.landing);
     if (good && splats) {
         landing.order = addCounts(landing.target, 1);
-        storeShifted(place(pixel), result.path);
+        storeShiftedReservoirs(place(pixel), result.path);
         storeShiftedSamples(place(pixel), result.hit);
     } else if (good) {
-        storeGathered(place(pixel), result.path);
+        storeGatheredReservoirs(place(pixel), result.path);
         storeGatheredSamples(place(pixel), result.hit);
     }
     if (splats) storeLandings(place(pixel), landing);

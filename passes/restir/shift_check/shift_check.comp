@@ -43,7 +43,7 @@ ivec2 choosePartner(ivec2 pixel) {
     return pixelInDisk(pixel, params.radius, random2(resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt()), 0, RANDOM_FREE));
 }
 bool alike(World w, ivec2 pixel, ivec2 q) {
-    return q != pixel && similarViews(pixelView(w, hits(place(pixel))), pixelView(w, hits(place(q))), params.normal, params.depth);
+    return q != pixel && similarPixels(pixelView(w, hits(place(pixel))), pixelView(w, hits(place(q))));
 }
 #endif
 
@@ -66,7 +66,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.partner = choosePartner(pixel);
     if (!inside(r.partner) || !alike(w, pixel, r.partner)) return;
     r.paired = true;
-    r.refresh = params.suffix == suffix_walked || (BETWEEN_FRAMES && params.suffix == suffix_automatic && !sameScene(w, partnerWorld()));
+    r.refresh = walksSuffix(w, partnerWorld());
 }
 
 // Is it the path that set out? F and G are compared elsewhere.
@@ -137,9 +137,9 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
     if (!r.paired) return shiftOfNothing();
     if (way == FORTH) {
         bool own = trip == OF_PIXEL;
-        r.path = own ? reservoirs(place(pixel)) : partnerReservoir(r.partner);
-        r.hit = own ? samples(place(pixel)) : partnerSample(r.partner);
-        r.confidence = own ? confidence(partnerReservoir(r.partner)) : confidence(reservoirs(place(pixel)));
+        r.path = own ? pathsReservoirs(place(pixel)) : partnerReservoir(r.partner);
+        r.hit = own ? pathsSamples(place(pixel)) : partnerSample(r.partner);
+        r.confidence = own ? confidence(partnerReservoir(r.partner)) : confidence(pathsReservoirs(place(pixel)));
         r.jacobian = 0;
     }
     if (!holdsPath(r.path) || (way == BACK && r.jacobian == 0)) return shiftOfNothing();

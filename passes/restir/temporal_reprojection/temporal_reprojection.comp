@@ -29,19 +29,19 @@ World reuseWorld(uint partner, uint way) {
 }
 
 void reuseStart(inout Reuse r, World w, ivec2 pixel) {
-    r.own = reservoirs(place(pixel));
-    r.ownHit = samples(place(pixel));
+    r.own = pathsReservoirs(place(pixel));
+    r.ownHit = pathsSamples(place(pixel));
     r.before = pixelBefore(pixel, motion(pixel));
     r.confidence = r.jacobian = r.back = 0;
     if (!historyValid() || !inside(r.before)) return;
     World last = worldPrev();
     PixelView here = pixelView(w, hits(place(pixel))), there = pixelView(last, hitsPrev(place(r.before)));
-    if (params.depth < 1e6 && !similarViews(here, there, params.normal, params.depth)) return;
-    r.past = history(place(r.before));
+    if (params.depth < 1e6 && !similarPixels(here, there)) return;
+    r.past = historyReservoirs(place(r.before));
     r.pastHit = historySamples(place(r.before));
     r.pastTarget = target(r.past);
     r.confidence = cappedConfidence(confidence(r.past), params.cap * confidence(r.own));
-    r.refresh = params.suffix == suffix_walked || (params.suffix == suffix_automatic && !sameScene(w, last));
+    r.refresh = walksSuffix(w, last);
 }
 
 ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
