@@ -5,6 +5,7 @@
 #include <framework/scene/gltf/accessor.h>
 #include <framework/scene/gltf/texture.h>
 #include <framework/scene/gltf/uri.h>
+#include <framework/scene/visit.h>
 
 #include <fmt/format.h>
 #include <stb/stb_image.h>
@@ -34,6 +35,19 @@ std::vector<std::byte> imageBytes(const GltfFile& file, int index) {
     const auto bytes = bufferViewBytes(file, static_cast<int>(std::clamp<std::int64_t>(view->asInt("bufferView"), -1, 0x7fffffff)));
     return {bytes.begin(), bytes.end()};
 }
+
+/// Empties the slots of a material that read a texture.
+struct SlotCleaner {
+    std::uint32_t texture;
+
+    void operator()(TextureSlot& slot) const {
+        if (slot.texture == texture) slot = {};
+    }
+    void operator()(std::optional<MaterialLayers>& layers) const {
+        if (layers) visit(*this, *layers);
+    }
+    void operator()(auto&) const {}
+};
 
 }  // namespace
 
@@ -170,16 +184,7 @@ void GltfTextures::leaveOut(int image) {
             Material& material = import_.scene.materials[m];
             if (material.emissiveMap.texture == texture && !material.unlit)
                 material.emission = glm::vec3(0);  // as where a file has no such texture
-            for (TextureSlot* slot : {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap, &material.occlusionMap,
-                                      &material.emissiveMap, &material.transmissionMap}) {
-                if (slot->texture == texture) *slot = {};
-            }
-            if (!material.layers) continue;
-            MaterialLayers& l = *material.layers;
-            for (TextureSlot* slot : {&l.specularMap, &l.specularColorMap, &l.sheenColorMap, &l.sheenRoughnessMap, &l.anisotropyMap, &l.coatMap,
-                                      &l.coatRoughnessMap, &l.coatNormalMap}) {
-                if (slot->texture == texture) *slot = {};
-            }
+            visit(SlotCleaner{texture}, material);
         }
     }
 }
