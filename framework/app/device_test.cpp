@@ -40,8 +40,8 @@ Facts addNumbers(const DeviceTestOptions& options) {
     const gpu::Device device({.choice = options.device});
     const Stopwatch compiling;
     const Path shaders = shaderFolder();
-    const gpu::Pipeline pipeline(device, gpu::compileShader({.file = shaders / "base/add_numbers.comp", .folders = {shaders}, .generated = {}, .defines = {}}), {},
-                                 sizeof(VkDeviceAddress), "add numbers");
+    const gpu::Pipeline pipeline(device, gpu::compileShader({.file = shaders / "base/add_numbers.comp", .folders = {shaders}, .generated = {}, .defines = {}}),
+                                 {}, sizeof(VkDeviceAddress), "add numbers");
     const gpu::Buffer numbers(device, count * sizeof(std::uint32_t), gpu::Memory::device, "numbers");
     const VkDeviceAddress push = numbers.address();
     const auto add = [&](gpu::Commands& commands) { commands.dispatch(pipeline, std::as_bytes(std::span(&push, 1)), count / 64); };
@@ -98,7 +98,9 @@ struct Task {
 constexpr Task tasks[] = {{"trivial kernel", addNumbers}, {"path-traced frame", traceFrame}};
 
 std::string durationText(double milliseconds) {
-    return milliseconds < 10 ? fmt::format("{:.1f} ms", milliseconds) : milliseconds < 1000 ? fmt::format("{:.0f} ms", milliseconds) : fmt::format("{:.1f} s", milliseconds / 1000);
+    return milliseconds < 10     ? fmt::format("{:.1f} ms", milliseconds)
+           : milliseconds < 1000 ? fmt::format("{:.0f} ms", milliseconds)
+                                 : fmt::format("{:.1f} s", milliseconds / 1000);
 }
 
 /// Runs a task in a child; the result has "name", "works", and either the facts or a "problem".
@@ -121,7 +123,8 @@ Json resultOf(const Task& task, const DeviceTestOptions& options) {
         case ChildEnd::Way::returned: result.merge(Json::parse(end.text, task.name)); break;
         case ChildEnd::Way::threw: result["problem"] = end.text; break;
         case ChildEnd::Way::overdue: result["problem"] = fmt::format("did not end within {:g} s", options.limit); break;
-        case ChildEnd::Way::died: result["problem"] = end.signal == 0 ? "ended without a word" : fmt::format("crashed (signal {}, {})", end.signal, ::strsignal(end.signal));
+        case ChildEnd::Way::died:
+            result["problem"] = end.signal == 0 ? "ended without a word" : fmt::format("crashed (signal {}, {})", end.signal, ::strsignal(end.signal));
     }
     const std::string hint = "update the Vulkan driver, choose another device with --device, or another driver with VK_DRIVER_FILES";
     if (end.way == ChildEnd::Way::died) result["hint"] = hint;
@@ -132,7 +135,8 @@ Json resultOf(const Task& task, const DeviceTestOptions& options) {
 void print(const Json& result) {
     fmt::print("{}: ", result.find("name")->asString());
     if (result.find("works")->asBool()) {
-        fmt::print("works, {} to compile, {} a run, on {}\n", durationText(result.find("compileMs")->asNumber()), durationText(result.find("ms")->asNumber()), result.find("device")->asString());
+        fmt::print("works, {} to compile, {} a run, on {}\n", durationText(result.find("compileMs")->asNumber()), durationText(result.find("ms")->asNumber()),
+                   result.find("device")->asString());
     } else {
         const Json* hint = result.find("hint");
         fmt::print("{}{}\n", result.find("problem")->asString(), hint ? "; " + hint->asString() : "");

@@ -45,11 +45,15 @@ Setting readSetOption(const std::string& text) {
 
 void SessionOptions::addTo(Command& command) {
     command.option("graph", graph, "graph file").required();
-    command.taken<std::string>("--scene", [this](const std::string& v) { changes.scene = v; }, "scene file or model, instead of the graph's").check(checkNotEmpty);
+    const auto takeScene = [this](const std::string& v) { changes.scene = v; };
+    command.taken<std::string>("--scene", takeScene, "scene file or model, instead of the graph's").check(checkNotEmpty);
     command.taken<int>("--frames", [this](int v) { changes.frames = v; }, "number of frames").within(1, std::numeric_limits<int>::max());
     command.taken<std::string>("--size", [this](const std::string& v) { changes.size = readSize("--size", v); }, "of the frame, WIDTHxHEIGHT");
     command.taken<std::uint32_t>("--seed", [this](std::uint32_t v) { changes.seed = v; }, "of the random numbers").check(checkNotEmpty);
-    command.taken<std::vector<std::string>>("--set", [this](const auto& texts) { for (const std::string& text : texts) changes.set.push_back(readSetOption(text)); }, "pass.parameter=value").repeatable();
+    const auto takeSettings = [this](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) changes.set.push_back(readSetOption(text));
+    };
+    command.taken<std::vector<std::string>>("--set", takeSettings, "pass.parameter=value").repeatable();
     command.taken<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
     command.taken<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
     command.option("--dump", dumps, "pass.port to write as well").repeatable();
@@ -74,7 +78,8 @@ Session::Session(const SessionOptions& options, SessionParts parts) : renderer_(
         const std::string why = options.renderer.rays.empty() ? whyRayBody(device().facts()) : std::string(nameOf(rays())) + ", as asked for";
         log::note("device {}, {}; rays by {}", device().facts().name, device().reason(), why);
     }
-    const RunnerOptions how{.pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice};
+    const RunnerOptions how{
+        .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice};
     std::optional<log::Progress> progress;
     runner_ = renderer_.bringUp(*graph_, *scene_, how, parts.compiled ? parts.compiled : [&](std::size_t done, std::size_t all) {
         if (!progress) progress.emplace("compiling shaders, which the driver keeps for the next start", all);

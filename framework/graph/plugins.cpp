@@ -67,7 +67,8 @@ Path PluginLibraries::fileOf(const std::string& folder, const Where& where) cons
         for (const fs::directory_entry& family : fs::directory_iterator(root, none)) {
             const Path file = family.path() / name;
             if (!fs::is_regular_file(file, none)) continue;
-            if (!found.empty()) throw Error(where, "two families have a pass type \"" + folder + "\": " + found.string() + " and " + file.string(), "rename one");
+            if (!found.empty())
+                throw Error(where, "two families have a pass type \"" + folder + "\": " + found.string() + " and " + file.string(), "rename one");
             found = file;
         }
         if (!found.empty()) return found;

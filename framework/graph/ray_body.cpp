@@ -27,8 +27,11 @@ RayBody chooseRayBody(const gpu::DeviceFacts& device, const std::string& wish) {
     }
     const auto body = RayBody(found - rayBodies.begin());
     if (body == RayBody::packet && !canTracePackets(device))
-        throw Error("ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name + " with subgroups of " + std::to_string(device.subgroupSize), "use --rays lane");
-    if (body == RayBody::rayQuery && !device.rayQuery) throw Error("ray body \"ray_query\" needs VK_KHR_ray_query, which " + device.name + " lacks", "use --rays lane");
+        throw Error(
+            "ray body \"packet\" needs lavapipe with subgroups of 8; this is " + device.name + " with subgroups of " + std::to_string(device.subgroupSize),
+            "use --rays lane");
+    if (body == RayBody::rayQuery && !device.rayQuery)
+        throw Error("ray body \"ray_query\" needs VK_KHR_ray_query, which " + device.name + " lacks", "use --rays lane");
     return body;
 }
 
@@ -41,7 +44,8 @@ std::string whyRayBody(const gpu::DeviceFacts& device) {
     const std::string walk = "each lane walks our own hierarchy";
     if (!device.rayQuery) return "lane: the device has no ray query, so " + walk;
     if (!device.isLavapipe) return "lane: " + walk + ", because ray queries of a CPU are slow";
-    return "lane: " + walk + ", several times faster here than the driver's ray query; packets would need 8 lanes a subgroup, not " + std::to_string(device.subgroupSize);
+    return "lane: " + walk + ", several times faster here than the driver's ray query; packets would need 8 lanes a subgroup, not " +
+           std::to_string(device.subgroupSize);
 }
 
 }  // namespace lodestir

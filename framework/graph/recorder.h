@@ -51,7 +51,8 @@ public:
     void upload(const Port& port, std::span<const std::byte> bytes) override {
         separate();
         PortMemory& memory = made(port);
-        if (bytes.size() > memory.bytes) throw Error("upload of " + std::to_string(bytes.size()) + " bytes into port \"" + std::string(port.name) + "\" of " + std::to_string(memory.bytes));
+        if (bytes.size() > memory.bytes)
+            throw Error("upload of " + std::to_string(bytes.size()) + " bytes into port \"" + std::string(port.name) + "\" of " + std::to_string(memory.bytes));
         work_.staging.emplace_back(s_.device_, bytes.size(), gpu::Memory::upload, "staging");
         std::memcpy(work_.staging.back().mapped(), bytes.data(), bytes.size());
         s_.commands_.copy(work_.staging.back(), 0, memory.now(), 0, bytes.size());
@@ -70,13 +71,15 @@ public:
     }
     void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) override {
         PortMemory& memory = made(port);
-        if (value.size() != memory.bytes) throw Error("port \"" + std::string(port.name) + "\" holds " + std::to_string(memory.bytes) + " bytes, given " + std::to_string(value.size()));
+        if (value.size() != memory.bytes)
+            throw Error("port \"" + std::string(port.name) + "\" holds " + std::to_string(memory.bytes) + " bytes, given " + std::to_string(value.size()));
         // Compared with last frame's value, which is the other copy where there is one: an equal value is no change.
         const int before = memory.copies[0] == memory.copies[1] ? memory.current : memory.previous;
         const std::byte* old = memory.version > 0 ? memory.copies[std::size_t(before)]->mapped() : nullptr;
         std::vector<std::byte> bytes(value.begin(), value.end());
         keep = withInputs(std::move(keep));
-        if (s_.topLevels_ && port.type.isSame(PortTypeOf<World>::value)) keep = withTopLevel(bytes, old, memory.keep[std::size_t(before)], std::move(keep), memory.now().address());
+        if (s_.topLevels_ && port.type.isSame(PortTypeOf<World>::value))
+            keep = withTopLevel(bytes, old, memory.keep[std::size_t(before)], std::move(keep), memory.now().address());
         const bool same = old && std::memcmp(old, bytes.data(), bytes.size()) == 0;
         std::memcpy(memory.now().mapped(), bytes.data(), bytes.size());
         memory.keep[std::size_t(memory.current)] = std::move(keep);
@@ -89,7 +92,8 @@ public:
 
 private:
     /// `rows` rows of a dispatch from row `first` on (pixels, where it is one row).
-    void piece(const Kernel& kernel, Slices::Key key, glm::uvec2 extent, std::uint32_t first, std::uint32_t rows, std::initializer_list<std::uint32_t> arguments) {
+    void piece(const Kernel& kernel, Slices::Key key, glm::uvec2 extent, std::uint32_t first, std::uint32_t rows,
+               std::initializer_list<std::uint32_t> arguments) {
         const bool row = extent.y == 1;
         Push push{};
         push.block = s_.nodes_[std::size_t(node_)].block.address();

@@ -13,7 +13,8 @@ const gpu::Device& Renderer::device() {
 
 RayBody Renderer::rays() { return chooseRayBody(device().facts(), options_.rays); }
 
-std::unique_ptr<Runner> Renderer::bringUp(Graph& graph, const Scene& scene, RunnerOptions options, const std::function<void(std::size_t, std::size_t)>& progress) {
+std::unique_ptr<Runner> Renderer::bringUp(Graph& graph, const Scene& scene, RunnerOptions options,
+                                          const std::function<void(std::size_t, std::size_t)>& progress) {
     options.rays = rays();
     auto runner = std::make_unique<Runner>(device(), graph, scene, std::move(options));
     runner->prepare(progress ? progress : [](std::size_t, std::size_t) {});

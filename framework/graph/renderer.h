@@ -29,7 +29,8 @@ public:
     Graph build(const Path& file, const GraphOptions& changes) { return buildGraph(loadDescription(file, changes), libraries_); }
     /// A runner whose shaders are ready; graph and scene must outlive it, as must this. The rays in `options` are those of this; `progress`, if any,
     /// is told how many of how many shaders are ready.
-    std::unique_ptr<Runner> bringUp(Graph& graph, const Scene& scene, RunnerOptions options = {}, const std::function<void(std::size_t done, std::size_t all)>& progress = {});
+    std::unique_ptr<Runner> bringUp(Graph& graph, const Scene& scene, RunnerOptions options = {},
+                                    const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 private:
     RendererOptions options_;

@@ -69,7 +69,8 @@ void Runner::State::fillBlock(std::size_t node) {
                 const PortMemory& memory = memories_->at(std::size_t(resource));
                 record.address = (source.prev ? memory.last() : memory.now()).address();
                 const bool image = graph_.port(source).type.kind == PortType::Kind::image;
-                record.size = image ? lodestir::sizeOf(graph_, source.node, source.port, size_) : glm::uvec2(countOf(graph_, source.node, source.port, size_), 1);
+                record.size =
+                    image ? lodestir::sizeOf(graph_, source.node, source.port, size_) : glm::uvec2(countOf(graph_, source.node, source.port, size_), 1);
             }
         }
         std::memcpy(block.data() + state.layout.ports[p], &record, sizeof record);
@@ -208,7 +209,8 @@ void Runner::State::checkFaults() const {
         if (fault.count == 0) continue;
         const GraphNode& n = graph_.nodes[i];
         problems.add(n.where, "pass \"" + n.name + "\": " + std::to_string(fault.count) + " accesses outside a port; the first: port \"" +
-                                  std::string(n.pass->ports[fault.port]->name) + "\" at (" + std::to_string(fault.index.x) + ", " + std::to_string(fault.index.y) + ")");
+                                  std::string(n.pass->ports[fault.port]->name) + "\" at (" + std::to_string(fault.index.x) + ", " +
+                                  std::to_string(fault.index.y) + ")");
     }
     problems.raise();
 }

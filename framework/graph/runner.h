@@ -40,7 +40,8 @@ struct PassReport {
 struct FrameReport {
     std::uint32_t frame = 0;
     double milliseconds = 0;       ///< on the device, of all steps but set-up
-    double wholeMilliseconds = 0;  ///< from the frame's beginning to its end on the device: what is more than its steps went into clearing, barriers and reading back
+    double wholeMilliseconds =
+        0;  ///< from the frame's beginning to its end on the device: what is more than its steps went into clearing, barriers and reading back
     std::vector<PassReport> passes;
 };
 

@@ -17,8 +17,13 @@ struct SceneNode final : Pass {
 }  // namespace
 
 const Plugin& scenePlugin() {
-    static const Plugin plugin{frameworkAbi().data(), "SceneNode", "", "Hands out the loaded scene: geometry on the device, and the camera, transforms and lights of each frame.",
-                               __FILE__, []() -> Pass* { return new SceneNode; }, nullptr};
+    static const Plugin plugin{frameworkAbi().data(),
+                               "SceneNode",
+                               "",
+                               "Hands out the loaded scene: geometry on the device, and the camera, transforms and lights of each frame.",
+                               __FILE__,
+                               []() -> Pass* { return new SceneNode; },
+                               nullptr};
     return plugin;
 }
 

@@ -30,7 +30,8 @@ struct LODESTIR_API Parameter {
 
 protected:
     /// Enters the parameter into the pass's list.
-    Parameter(Pass* pass, std::string_view name, std::string_view doc, Value initial, Value low, Value high, bool constant, std::vector<std::string_view> choices = {});
+    Parameter(Pass* pass, std::string_view name, std::string_view doc, Value initial, Value low, Value high, bool constant,
+              std::vector<std::string_view> choices = {});
 };
 
 template <class T> struct Range {

@@ -59,7 +59,8 @@ std::string samplesParameter(const Graph& graph, const Where& where) {
 }
 
 bool sameView(const CameraKey& a, const CameraKey& b) {
-    return std::tie(a.position, a.target, a.up, a.fovy, a.height, a.aperture, a.focus) == std::tie(b.position, b.target, b.up, b.fovy, b.height, b.aperture, b.focus);
+    return std::tie(a.position, a.target, a.up, a.fovy, a.height, a.aperture, a.focus) ==
+           std::tie(b.position, b.target, b.up, b.fovy, b.height, b.aperture, b.focus);
 }
 
 /// The first measured frame at which the scene is as it is at `frame`, so that one reference serves for both.

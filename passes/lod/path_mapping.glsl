@@ -59,7 +59,8 @@ MappedPath mapPath(World from, World to, World now, UvIndex index, LevelMapping 
             uv = hit.rc.uv;
         }
         float stretch = 1.0;
-        bool there = p.primitive == NONE || mapSurfacePoint(from, to, now, index, part == MAP_CONNECTED ? mapping.reconnection : mapping.primary, mapping, p, uv, stretch);
+        bool mapped = part == MAP_CONNECTED ? mapping.reconnection : mapping.primary;
+        bool there = p.primitive == NONE || mapSurfacePoint(from, to, now, index, mapped, mapping, p, uv, stretch);
         if (part == MAP_CENTRE) {
             m.centreIsThere = there;
             continue;

@@ -97,7 +97,11 @@ bool shiftStart(inout Shift t, World w, ShiftTask task, uvec2 size) {
 
 Ray shiftRay(Shift t, out bool anyHit, out uint purpose) {
     anyHit = t.state != SHIFT_WALK;
-    purpose = t.state == SHIFT_CONNECT ? RAYS_CONNECT : t.state == SHIFT_LIGHT ? RAYS_NEE : t.state == SHIFT_SEE ? RAYS_VISIBILITY : t.vertex == 0u ? RAYS_PRIMARY : RAYS_REPLAY;
+    purpose = t.state == SHIFT_CONNECT ? RAYS_CONNECT
+              : t.state == SHIFT_LIGHT ? RAYS_NEE
+              : t.state == SHIFT_SEE   ? RAYS_VISIBILITY
+              : t.vertex == 0u         ? RAYS_PRIMARY
+                                       : RAYS_REPLAY;
     Ray ray = t.ray;
     if (t.known && t.state == SHIFT_WALK && t.vertex == 0u) {
         purpose = RAYS_PURPOSES;

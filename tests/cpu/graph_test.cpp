@@ -97,7 +97,8 @@ TEST(Graph, BindsWhateverIsHandedOnLikeAWorld) {
 
 TEST(Graph, AnInputAndAnOutputMayShareTheirName) {
     fake::Workshop workshop;
-    const char* passes = R"("r": {"type": "render"}, "s": {"type": "sharpen", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "s.color"}})";
+    const char* passes =
+        R"("r": {"type": "render"}, "s": {"type": "sharpen", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "s.color"}})";
     const Graph g = workshop.build(passes, "s.color");
     EXPECT_EQ(inputOf(g, "s", "color"), "r.color");
     EXPECT_EQ(g.show, (Source{g.find("s"), 1}));

@@ -80,7 +80,8 @@ std::vector<PortBinding> bindings(const Pass& pass, bool optional, Format format
     return all;
 }
 
-gpu::Spirv compile(const Pass& pass, const std::vector<PortBinding>& bound, const std::string& text, std::vector<std::pair<std::string, std::string>> defines = {}) {
+gpu::Spirv compile(const Pass& pass, const std::vector<PortBinding>& bound, const std::string& text,
+                   std::vector<std::pair<std::string, std::string>> defines = {}) {
     const Path file = Path(testing::TempDir()) / "header_test.comp";
     writeFile(file, text);
     return gpu::compileShader({.file = file,
@@ -160,7 +161,8 @@ void main() {
 
 TEST(Header, ADriverOwnsTheLocalSize) {
     const Everything pass;
-    const std::string driven = "#version 460\n#include \"pass.glsl\"\nlayout(local_size_x = 32) in;\nvoid main() { if (warming()) return; storeH(ivec2(0), 1u); }\n";
+    const std::string driven =
+        "#version 460\n#include \"pass.glsl\"\nlayout(local_size_x = 32) in;\nvoid main() { if (warming()) return; storeH(ivec2(0), 1u); }\n";
     EXPECT_FALSE(compile(pass, bindings(pass, true, Format::rgba16f), driven, {{"TRACE_DRIVER", "1"}}).words.empty());
 }
 
@@ -169,7 +171,8 @@ TEST(Header, TheBlockLiesWhereTheShaderLooks) {
     const BlockLayout layout = blockLayout(pass);
     const auto offsets = structOffsets(compile(pass, bindings(pass, true, Format::rgba32f), shader));
     EXPECT_TRUE(contains(offsets, {offsetof(FrameInfo, index), offsetof(FrameInfo, seed), offsetof(FrameInfo, size), offsetof(FrameInfo, historyValid),
-                                   offsetof(FrameInfo, validate), offsetof(FrameInfo, salt), offsetof(FrameInfo, pad), offsetof(FrameInfo, ledger), offsetof(FrameInfo, faults)}));
+                                   offsetof(FrameInfo, validate), offsetof(FrameInfo, salt), offsetof(FrameInfo, pad), offsetof(FrameInfo, ledger),
+                                   offsetof(FrameInfo, faults)}));
     EXPECT_TRUE(contains(offsets, {offsetof(PortRecord, address), offsetof(PortRecord, size)}));
     EXPECT_TRUE(contains(offsets, {offsetof(Push, block), offsetof(Push, tileCounter), offsetof(Push, base), offsetof(Push, extent), offsetof(Push, arguments),
                                    offsetof(Push, warm), offsetof(Push, rows)}));
@@ -209,8 +212,9 @@ TEST(Header, ParametersAreWrittenAsTheShaderReadsThem) {
 TEST(Header, SaysWhatEachThingIs) {
     const Everything pass;
     const std::string text = passHeader(pass, "everything", bindings(pass, false, Format::rgba16f));
-    for (const char* part : {"// where (Image, unwired)\n#define HAS_mask 0", "// what comes in (rgba16f)", "// a constant (int 1..33)\nlayout(constant_id = 1) const int taps = 9;",
-                             "const int curve_filmic = 1;", "float knee;  // a float (float 0..10)", "#include \"world/world.h\"", "World world()"}) {
+    for (const char* part : {"// where (Image, unwired)\n#define HAS_mask 0", "// what comes in (rgba16f)",
+                             "// a constant (int 1..33)\nlayout(constant_id = 1) const int taps = 9;", "const int curve_filmic = 1;",
+                             "float knee;  // a float (float 0..10)", "#include \"world/world.h\"", "World world()"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
     }
     EXPECT_EQ(text.find("note"), std::string::npos);
@@ -219,7 +223,8 @@ TEST(Header, SaysWhatEachThingIs) {
 
 TEST(Header, TakesFormatsFromTheProducers) {
     fake::Workshop workshop;
-    const Graph g = workshop.build(R"("r": {"type": "render"}, "q": {"type": "rate", "in": {"sum": "r.color"}}, "m": {"type": "mix", "in": {"a": "q", "b": "r.color"}})", "m");
+    const Graph g = workshop.build(
+        R"("r": {"type": "render"}, "q": {"type": "rate", "in": {"sum": "r.color"}}, "m": {"type": "mix", "in": {"a": "q", "b": "r.color"}})", "m");
     const std::vector<PortBinding> bound = bindingsOf(g, g.find("m"));
     EXPECT_EQ(bound[0].format, Format::r16f);
     EXPECT_EQ(bound[1].format, Format::rgba16f);

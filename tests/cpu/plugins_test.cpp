@@ -24,8 +24,16 @@ struct Stars {
     static constexpr std::string_view name = "Stars";
     static constexpr std::array members{bundled<vec4>("places", "where each is"), bundled<float>("ages", "how old")};
 };
-struct First final : Pass { Out<Image> image{this, "image", "an image", Format::r16f}; Out<Stars> stars{this, "stars", "stars", Count::fixed(9)}; Param<int> n{this, "n", 3, {0, 9}, "a number"}; };
-struct Second final : Pass { In<Image> image{this, "image", "an image"}; In<Stars> stars{this, "stars", "stars", Need::optional}; Out<Image> copy{this, "copy", "a copy", Format::r16f}; };
+struct First final : Pass {
+    Out<Image> image{this, "image", "an image", Format::r16f};
+    Out<Stars> stars{this, "stars", "stars", Count::fixed(9)};
+    Param<int> n{this, "n", 3, {0, 9}, "a number"};
+};
+struct Second final : Pass {
+    In<Image> image{this, "image", "an image"};
+    In<Stars> stars{this, "stars", "stars", Need::optional};
+    Out<Image> copy{this, "copy", "a copy", Format::r16f};
+};
 LODESTIR_PASS(First, "first.comp", "Makes an image.")
 LODESTIR_PASS(Second, "second.comp", "Copies an image.")
 )";
@@ -117,7 +125,8 @@ TEST_F(Plugins, AllLoadsWhatLoads) {
 TEST_F(Plugins, WorkInAGraph) {
     PluginLibraries libraries({root()});
     const Json json = Json::parse(
-        R"({"format": 1, "passes": {"a": {"type": "pair.First", "set": {"n": 4}}, "b": {"type": "pair.Second", "in": {"image": "a", "stars": "a"}}}, "show": "b"})",
+        R"({"format": 1, "show": "b",
+            "passes": {"a": {"type": "pair.First", "set": {"n": 4}}, "b": {"type": "pair.Second", "in": {"image": "a", "stars": "a"}}}})",
         "g.json");
     const Graph graph = buildGraph(readDescription(json, "g.json"), libraries);
     EXPECT_EQ(graph.nameOf(graph.show), "b.copy");

@@ -42,7 +42,8 @@ TEST(ShaderModules, IncludeDownwardsOnly) {
     for (const auto& [module, includes] : modules) {
         const auto own = std::ranges::find(rooms, roomOf(module));
         EXPECT_NE(own, rooms.end()) << module << " is in a room that this test doesn't know";
-        for (const std::string& included : includes) EXPECT_LE(std::ranges::find(rooms, roomOf(included)) - rooms.begin(), own - rooms.begin()) << module << " includes " << included;
+        for (const std::string& included : includes)
+            EXPECT_LE(std::ranges::find(rooms, roomOf(included)) - rooms.begin(), own - rooms.begin()) << module << " includes " << included;
     }
 }
 

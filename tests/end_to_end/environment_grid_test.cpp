@@ -107,8 +107,8 @@ TEST_F(EnvironmentGrid, FindsPointsThatAreRounded) {
     EnsembleSetup setup = EnvironmentGrid::setup(48);
     setup.renderer.passes = {folder.path};
     EnsembleJudge judged(setup);
-    const EnsembleResult result =
-        judge("rounded", judged.measure(studyGraph(folder.path / "rounded.json", "no reuse", {{"initial.bounces", Json(1)}, {"initial.candidates", Json(16)}})));
+    const EnsembleResult result = judge(
+        "rounded", judged.measure(studyGraph(folder.path / "rounded.json", "no reuse", {{"initial.bounces", Json(1)}, {"initial.candidates", Json(16)}})));
     EXPECT_EQ(result.verdict, Verdict::biased) << result.reason;
 }
 

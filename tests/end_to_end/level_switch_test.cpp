@@ -56,7 +56,8 @@ TEST_F(Images, Identity) {
         }
     }
     const double energy = sumOf(images[1]) / sumOf(images[0]), paths = sumOf(landed[1]) / sumOf(landed[0]);
-    std::printf("identity: energy %.5f, landed %.5f of the run without a switch; %zu pixels differ, %zu land elsewhere, of 1536\n", energy, paths, different, elsewhere);
+    std::printf("identity: energy %.5f, landed %.5f of the run without a switch; %zu pixels differ, %zu land elsewhere, of 1536\n", energy, paths, different,
+                elsewhere);
     EXPECT_LT(different, 16u);
     EXPECT_LT(elsewhere, 16u);
     EXPECT_NEAR(energy, 1, 1e-3);
@@ -67,9 +68,10 @@ TEST_F(Images, Identity) {
 // triangles.
 TEST_F(Images, OneOfTwoInstances) {
     writeLevels(folder.path, "bowl", {{.cells = 20, .place = bowl}, {.cells = 6, .place = bowl}});
-    const Path scene = write("two", {"bowl"}, OrderedJson::array({OrderedJson{{"frame", 3}, {"level", 1}, {"instance", "left"}}}),
-                             {{"instances", OrderedJson::array({OrderedJson{{"model", "bowl"}, {"name", "left"}, {"translation", {-0.9, 0, 0}}, {"scale", 0.8}},
-                                                                OrderedJson{{"model", "bowl"}, {"name", "right"}, {"translation", {0.9, 0, 0}}, {"scale", 0.8}}})}});
+    const Path scene =
+        write("two", {"bowl"}, OrderedJson::array({OrderedJson{{"frame", 3}, {"level", 1}, {"instance", "left"}}}),
+              {{"instances", OrderedJson::array({OrderedJson{{"model", "bowl"}, {"name", "left"}, {"translation", {-0.9, 0, 0}}, {"scale", 0.8}},
+                                                 OrderedJson{{"model", "bowl"}, {"name", "right"}, {"translation", {0.9, 0, 0}}, {"scale", 0.8}}})}});
     Frames frames(scene, {64, 36}, reuseNodes({{"backup", 0}}), {"shade.color", "temporal.paths.samples", "initial.paths.samples", "temporal.landed"});
     frames.run(3);
     // A coordinate is carried along; where x1 is found by tracing again it is that of the same point, but for rounding.
@@ -228,20 +230,29 @@ protected:
         switch (GetParam()) {
             case 0: return {"identity", write("identity", {{.cells = 8, .place = bowl}, {.cells = 8, .place = bowl}}, switchAt(3))};
             case 1: return {"flicker", write("flicker", {{.cells = 20, .place = bowl}, {.cells = 7, .place = bowl}}, flicker(6))};
-            case 2: return {"without coordinates", write("bare", {{.cells = 20, .place = bowl, .uv = unmapped}, {.cells = 7, .place = bowl, .uv = unmapped}}, switchAt(3))};
+            case 2:
+                return {"without coordinates",
+                        write("bare", {{.cells = 20, .place = bowl, .uv = unmapped}, {.cells = 7, .place = bowl, .uv = unmapped}}, switchAt(3))};
             case 3:
-                return {"unequal counts", write("unequal", {{.cells = 20, .place = bowl, .uv = doubled},
-                                                            {.cells = 8, .place = bowl, .uv = [=](const SheetPoint& p) { return p.cell.x > 0.5 ? doubled(p) : p.at + 3.0; }}},
-                                                switchAt(3))};
-            case 4: return {"moved seam", write("seam", {{.cells = 16, .place = bowl, .uv = cut(0.5)}, {.cells = 8, .place = bowl, .uv = cut(0.375)}}, switchAt(3))};
+                return {"unequal counts",
+                        write("unequal",
+                              {{.cells = 20, .place = bowl, .uv = doubled},
+                               {.cells = 8, .place = bowl, .uv = [=](const SheetPoint& p) { return p.cell.x > 0.5 ? doubled(p) : p.at + 3.0; }}},
+                              switchAt(3))};
+            case 4:
+                return {"moved seam",
+                        write("seam", {{.cells = 16, .place = bowl, .uv = cut(0.5)}, {.cells = 8, .place = bowl, .uv = cut(0.375)}}, switchAt(3))};
             case 5: return {"degenerate", write("pinched", {{.cells = 9, .place = bowl, .uv = pinched}, {.cells = 18, .place = bowl}}, switchAt(3))};
             case 6: return {"hidden", write("hidden", {{.cells = 20, .place = bowl}, {.cells = 10, .place = ridge}}, switchAt(3))};
-            case 7: return {"moving", write("moving", {{.cells = 20, .place = bowl}, {.cells = 7, .place = bowl}}, switchAt(3), {.moveTo = glm::dvec3(1.2, 0.5, -0.6)})};
+            case 7:
+                return {"moving",
+                        write("moving", {{.cells = 20, .place = bowl}, {.cells = 7, .place = bowl}}, switchAt(3), {.moveTo = glm::dvec3(1.2, 0.5, -0.6)})};
             default: {
                 writeLevels(folder.path, "lamp", {{.cells = 4, .place = flat}, {.cells = 2, .place = flat}}, {.emission = {6, 5, 4}});
                 writeLevels(folder.path, "bowl", {{.cells = 20, .place = bowl}, {.cells = 7, .place = bowl}});
                 return {"lamp", write("lit", {"lamp", "bowl"}, switchAt(3),
-                                      {{"instances", OrderedJson::array({OrderedJson{{"model", "lamp"}, {"translation", {-0.2, 0.9, -0.3}}, {"scale", 0.3}}, OrderedJson{{"model", "bowl"}}})}})};
+                                      {{"instances", OrderedJson::array({OrderedJson{{"model", "lamp"}, {"translation", {-0.2, 0.9, -0.3}}, {"scale", 0.3}},
+                                                                         OrderedJson{{"model", "bowl"}}})}})};
             }
         }
     }

@@ -107,8 +107,8 @@ BlockMeans answer(bool centre) {
         for (int k = 0; k < 3; ++k) p[k] = glm::mix(keys[0][name][std::size_t(k)].get<double>(), keys[1][name][std::size_t(k)].get<double>(), t);
         return p;
     };
-    const Point position = between("position"), forward = glm::normalize(between("target") - position), right = glm::normalize(glm::cross(forward, Point(0, 1, 0))),
-                up = glm::cross(right, forward);
+    const Point position = between("position"), forward = glm::normalize(between("target") - position),
+                right = glm::normalize(glm::cross(forward, Point(0, 1, 0))), up = glm::cross(right, forward);
     const double half = std::tan(camera["fovy"].get<double>() * std::numbers::pi / 360);
     const int samples = centre ? 1 : 12;
     ImageData image = makeImage(width, height, 3);
@@ -161,7 +161,8 @@ TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
                       {"splatting", "restir_lod.json", nullptr, false, {bounces, many, radius}},
                       {"2022", "restir_pt_2022.json", nullptr, true, {bounces, many, radius, {"direct.radius", Json(5)}}}};
     for (const auto& technique : techniques) {
-        const EnsembleResult result = judge(technique.name, judged.measure(studyGraph(graphs / technique.file, technique.variant, technique.set)), technique.centre ? centres : box);
+        const EnsembleResult result =
+            judge(technique.name, judged.measure(studyGraph(graphs / technique.file, technique.variant, technique.set)), technique.centre ? centres : box);
         EXPECT_EQ(result.verdict, Verdict::unbiased) << technique.name << ": " << result.reason;
     }
 }
@@ -171,7 +172,8 @@ TEST_F(MovingFurnace, FindsChancesThatAreKept) {
     const char* right = "return l.delta ? w.lights.at[l.point.light].pmf : l.pdf;";
     const char* wrong = "return l.delta ? 1.0 : l.pdf;";
     std::vector<Fault> faults;
-    for (const char* pass : {"initial_sampling", "temporal_reprojection", "restir_di"}) faults.push_back({std::string(pass) + "_kept", pass, "light/light.glsl", right, wrong});
+    for (const char* pass : {"initial_sampling", "temporal_reprojection", "restir_di"})
+        faults.push_back({std::string(pass) + "_kept", pass, "light/light.glsl", right, wrong});
     plant(folder.path, faults);
     ASSERT_FALSE(HasFailure());
     const auto faulty = [&](const char* file) {
@@ -187,10 +189,14 @@ TEST_F(MovingFurnace, FindsChancesThatAreKept) {
     setup.renderer.passes = {folder.path};
     setup.referenceSamples = 64;
     EnsembleJudge judged(setup);
-    const EnsembleResult paths = judge("temporal only, kept", judged.measure(studyGraph(faulty("restir_pt.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), answer(false));
+    const EnsembleResult paths = judge(
+        "temporal only, kept",
+        judged.measure(studyGraph(faulty("restir_pt.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), answer(false));
     EXPECT_EQ(paths.verdict, Verdict::biased) << paths.reason;
     const EnsembleResult direct =
-        judge("2022, kept", judged.measure(studyGraph(faulty("restir_pt_2022.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})), answer(true));
+        judge("2022, kept",
+              judged.measure(studyGraph(faulty("restir_pt_2022.json"), "temporal only", {{"initial.bounces", Json(8)}, {"initial.candidates", Json(4)}})),
+              answer(true));
     EXPECT_EQ(direct.verdict, Verdict::biased) << direct.reason;
 }
 

@@ -127,7 +127,8 @@ TEST_F(Mutations, DimmedInPart) {
     plant(folder.path, {{"bright_suffix", "initial_sampling", "restir/reservoir.glsl", "if (s.k > 0u && s.k < s.d) r.radiance *= share;", ""},
                         {"bright_shift", "shift_check", "restir/shift.glsl", "dimLight(t.path, t.shape, transmittance(hit));", ""}});
     ASSERT_FALSE(HasFailure());
-    OrderedJson passes{{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})}, {"bright", node("bright_suffix", OrderedJson::object(), {{"bounces", 3}})}};
+    OrderedJson passes{
+        {"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})}, {"bright", node("bright_suffix", OrderedJson::object(), {{"bounces", 3}})}};
     passes["right"] = node("shift_check", pathsOf("initial", "initial"));
     passes["bright_suffix"] = node("shift_check", pathsOf("bright", "bright"));
     passes["bright_shift"] = node("bright_shift", pathsOf("initial", "initial"));

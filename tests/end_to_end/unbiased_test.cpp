@@ -34,8 +34,11 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
                          .runs = c.runs,
                          .reference = graph("path_tracer.json", "no accumulation", {}),
                          .referenceSamples = 2048});
-    const EnsembleResult reuse =
-        judge.judge({.graph = sourceFolder / "graphs" / c.graph, .variant = {}, .set = {{"initial.candidates", Json(c.candidates)}, {"spatial.radius", Json(5)}}, .port = {}, .where = {}});
+    const EnsembleResult reuse = judge.judge({.graph = sourceFolder / "graphs" / c.graph,
+                                              .variant = {},
+                                              .set = {{"initial.candidates", Json(c.candidates)}, {"spatial.radius", Json(5)}},
+                                              .port = {},
+                                              .where = {}});
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
     EXPECT_LE(reuse.halfWidth, 0.01);
     std::printf("%s: %+.2f %% +- %.2f %%\n", c.scene.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
@@ -50,18 +53,18 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
                          .runs = 64,
                          .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.pixelCentre", Json(true)}}),
                          .referenceSamples = 2048});
-    const EnsembleResult reuse =
-        judge.judge({.graph = sourceFolder / "passes/restir/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
+    const EnsembleResult reuse = judge.judge(
+        {.graph = sourceFolder / "passes/restir/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
     EXPECT_LE(reuse.halfWidth, 0.01);
     std::printf("light points: %+.2f %% +- %.2f %%\n", 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
-                         testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96}, Case{"ensemble_glass", 4, 96},
-                                         Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64}, Case{"ensemble_moving", 8, 960},
-                                         Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96}, Case{"ensemble_orthographic", 2, 64},
-                                         Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
+                         testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
+                                         Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
+                                         Case{"ensemble_moving", 8, 960}, Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96},
+                                         Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
                          [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
@@ -81,8 +84,11 @@ TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
                          .reference = graph("path_tracer.json", "no accumulation", {}),
                          .referenceSamples = 2048});
     for (const char* technique : {"both", "light"}) {
-        const EnsembleResult reuse = judge.judge(
-            {.graph = sourceFolder / "graphs/restir_pt.json", .variant = {}, .set = {{"initial.candidates", Json(4)}, {"initial.technique", Json(technique)}, {"spatial.radius", Json(5)}}, .port = {}, .where = {}});
+        const EnsembleResult reuse = judge.judge({.graph = sourceFolder / "graphs/restir_pt.json",
+                                                  .variant = {},
+                                                  .set = {{"initial.candidates", Json(4)}, {"initial.technique", Json(technique)}, {"spatial.radius", Json(5)}},
+                                                  .port = {},
+                                                  .where = {}});
         EXPECT_EQ(reuse.verdict, Verdict::unbiased) << technique << ": " << reuse.reason;
         EXPECT_LE(reuse.halfWidth, 0.01);
     }

@@ -47,7 +47,9 @@ private:
 class Viewer {
 public:
     Viewer(const VirtualDisplay& display, const Path& folder, const Path& graph, Arguments arguments, Environment environment = {})
-        : display_(display), report_(folder / "report.json"), process_(command(folder, graph, std::move(arguments)), environmentOf(display, std::move(environment))) {}
+        : display_(display),
+          report_(folder / "report.json"),
+          process_(command(folder, graph, std::move(arguments)), environmentOf(display, std::move(environment))) {}
 
     /// The report once `holds` is true of it; the test fails when that takes longer than a minute.
     OrderedJson await(const std::string& what, const std::function<bool(const OrderedJson&)>& holds, std::chrono::duration<double> patience = 60s) {
@@ -106,7 +108,9 @@ public:
 
 private:
     static std::vector<std::string> command(const Path& folder, const Path& graph, Arguments arguments) {
-        std::vector<std::string> all{LODESTIR_BINARY, "view", graph.string(), "--window", "1280x800", "--self-report", (folder / "report.json").string(), "--out", (folder / "out").string()};
+        std::vector<std::string> all{
+            LODESTIR_BINARY,          "view", graph.string(), "--window", "1280x800", "--self-report", (folder / "report.json").string(), "--out",
+            (folder / "out").string()};
         all.insert(all.end(), arguments.begin(), arguments.end());
         return all;
     }
@@ -146,7 +150,8 @@ protected:
 };
 
 TEST(ViewWithoutDisplay, IsOneClearError) {
-    const Output output = runProcess({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", LODESTIR_BINARY, "view", (sourceFolder / "graphs/path_tracer.json").string()});
+    const Output output =
+        runProcess({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", LODESTIR_BINARY, "view", (sourceFolder / "graphs/path_tracer.json").string()});
     EXPECT_EQ(output.exitCode, 1);
     EXPECT_NE(output.err.find("no display"), std::string::npos) << output.err;
     EXPECT_NE(output.err.find("lodestir run"), std::string::npos) << output.err;
@@ -180,7 +185,8 @@ TEST_F(View, AnswersMouseAndKeys) {
 
     // A drag orbits: the target stays, the position doesn't. Another one moves both. The wheel comes closer. C takes it all back.
     viewer.drag("1", 0.15, 0.05);
-    const OrderedJson orbited = viewer.await("a camera of its own", [](const OrderedJson& r) { return r["camera"]["own"].get<bool>() && r["framesStill"].get<int>() > 2; });
+    const OrderedJson orbited =
+        viewer.await("a camera of its own", [](const OrderedJson& r) { return r["camera"]["own"].get<bool>() && r["framesStill"].get<int>() > 2; });
     EXPECT_EQ(orbited["camera"]["key"]["target"], start["camera"]["key"]["target"]);
     EXPECT_NE(orbited["camera"]["key"]["position"], start["camera"]["key"]["position"]);
     viewer.drag("3", 0.1, 0);
@@ -194,7 +200,8 @@ TEST_F(View, AnswersMouseAndKeys) {
     // The pixel under the pointer: the middle of the picture is the middle of the image, at any zoom.
     const auto [x, y] = viewer.picture();
     viewer.point(x, y);
-    viewer.await("the middle pixel", [](const OrderedJson& r) { return std::abs(r["pixel"][0].get<int>() - 80) <= 1 && std::abs(r["pixel"][1].get<int>() - 45) <= 1; });
+    viewer.await("the middle pixel",
+                 [](const OrderedJson& r) { return std::abs(r["pixel"][0].get<int>() - 80) <= 1 && std::abs(r["pixel"][1].get<int>() - 45) <= 1; });
     viewer.key("8");
     viewer.await("zoom 8", [](const OrderedJson& r) { return r["zoom"] == 8.0 && std::abs(r["pixel"][0].get<int>() - 80) <= 1; });
     viewer.key("0");
@@ -219,7 +226,8 @@ TEST_F(View, WidgetsChangeTheImageAndWhatIsSaved) {
 
     // The slider of the exposure, clicked at 3/5 of its -20..20: 4 stops more.
     viewer.click("display.exposure", 0.6);
-    const OrderedJson brighter = viewer.await("a brighter image", [&](const OrderedJson& r) { return r.contains("mean") && r["mean"].get<double>() > 1.5 * mean; });
+    const OrderedJson brighter =
+        viewer.await("a brighter image", [&](const OrderedJson& r) { return r.contains("mean") && r["mean"].get<double>() > 1.5 * mean; });
     const double exposure = brighter["parameters"]["display.exposure"].get<double>();
     EXPECT_NEAR(exposure, 4, 1.5);
     EXPECT_EQ(brighter["builds"], 1);  // a uniform costs nothing
@@ -243,7 +251,8 @@ TEST_F(View, WidgetsChangeTheImageAndWhatIsSaved) {
 
     // The dot beside it takes it back.
     viewer.click("display.exposure back");
-    viewer.await("the graph's exposure", [&](const OrderedJson& r) { return r["parameters"]["display.exposure"] == 0.0 && std::abs(r["mean"].get<double>() - mean) < 0.1 * mean; });
+    viewer.await("the graph's exposure",
+                 [&](const OrderedJson& r) { return r["parameters"]["display.exposure"] == 0.0 && std::abs(r["mean"].get<double>() - mean) < 0.1 * mean; });
 
     // A variant is another graph; another port another picture.
     viewer.click("variant");
@@ -280,7 +289,9 @@ TEST_F(View, LivesThroughBrokenEdits) {
     std::string brighter = good;
     brighter.insert(brighter.find(curve) + curve.size(), "    c *= 2;\n");
     writeFile(shader, brighter);
-    const OrderedJson mended = viewer.await("the message gone", [&](const OrderedJson& r) { return r["problems"].empty() && r["reloads"].get<int>() >= 1 && r["mean"].get<double>() > 1.2 * mean; });
+    const OrderedJson mended = viewer.await("the message gone", [&](const OrderedJson& r) {
+        return r["problems"].empty() && r["reloads"].get<int>() >= 1 && r["mean"].get<double>() > 1.2 * mean;
+    });
     EXPECT_EQ(mended["builds"], 1);
 
     // The graph: a mistake is told with its place, a mended one takes effect.
@@ -292,7 +303,9 @@ TEST_F(View, LivesThroughBrokenEdits) {
     EXPECT_NE(graphMessage["problems"][0].get<std::string>().find("path_tracker"), std::string::npos);
     goesOn(graphMessage["frames"].get<int>());
     writeGraph(-3);
-    viewer.await("the mended graph", [&](const OrderedJson& r) { return r["problems"].empty() && r["builds"] == 2 && r["parameters"]["display.exposure"] == -3.0 && r["mean"].get<double>() < mean; });
+    viewer.await("the mended graph", [&](const OrderedJson& r) {
+        return r["problems"].empty() && r["builds"] == 2 && r["parameters"]["display.exposure"] == -3.0 && r["mean"].get<double>() < mean;
+    });
 
     // Once more with a syntax error in the JSON: the place is line and column.
     writeFile(graph, text.substr(0, text.size() / 2));
@@ -310,8 +323,9 @@ TEST_F(View, InputDoesNotWaitForFrames) {
         std::this_thread::sleep_for(300ms);
     }
     const OrderedJson report = viewer.await("answers", [](const OrderedJson& r) { return r["input"]["count"].get<int>() >= 20; });
-    std::printf("a frame takes %.0f ms; input was answered in %.0f ms (median), %.0f (95 %%), %.0f (largest of %d)\n", report["frameMs"].get<double>(), report["input"]["median"].get<double>(),
-                report["input"]["p95"].get<double>(), report["input"]["largest"].get<double>(), report["input"]["count"].get<int>());
+    std::printf("a frame takes %.0f ms; input was answered in %.0f ms (median), %.0f (95 %%), %.0f (largest of %d)\n", report["frameMs"].get<double>(),
+                report["input"]["median"].get<double>(), report["input"]["p95"].get<double>(), report["input"]["largest"].get<double>(),
+                report["input"]["count"].get<int>());
     const double frame = report["frameMs"].get<double>();
     EXPECT_LT(report["input"]["median"].get<double>(), std::max(100.0, frame / 8));
     EXPECT_LT(report["input"]["p95"].get<double>(), std::max(200.0, frame / 4));

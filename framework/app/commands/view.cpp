@@ -26,7 +26,8 @@ int showWindow(const ViewOptions& options) {
     const auto frames = std::uint64_t(sessionOptions.changes.frames.value_or(0));
     sessionOptions.changes.frames.reset();  // here it says when to quit
     Window window(glm::ivec2(options.window), "Lodestir: " + sessionOptions.graph.filename().string());
-    const auto device = std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.renderer.device, .windowExtensions = window.vulkanExtensions()});
+    const auto device =
+        std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.renderer.device, .windowExtensions = window.vulkanExtensions()});
     Canvas canvas(*device, window);
     PicturePainter painter(*device);
     Viewport viewport;
@@ -43,7 +44,8 @@ int showWindow(const ViewOptions& options) {
         std::shared_ptr<const ViewStatus> seen;
         int settle = 3;  // drawings that are due: panels need a few to come to rest, but new input goes first
         while (!window.shouldClose()) {
-            const Clock::time_point now = Clock::now(), due = settle > 0 ? drawn + rest : renderer.status() != seen ? drawn + pause : now + std::chrono::milliseconds(250);
+            const Clock::time_point now = Clock::now(), idle = now + std::chrono::milliseconds(250),
+                                    due = settle > 0 ? drawn + rest : renderer.status() != seen ? drawn + pause : idle;
             const auto input = window.takeInput(std::max(0.0, std::chrono::duration<double>(due - now).count()));
             const std::shared_ptr<const ViewStatus> status = renderer.status();
             const auto since = Clock::now() - drawn;
@@ -57,14 +59,17 @@ int showWindow(const ViewOptions& options) {
             seen = status;
             const bool last = frames > 0 && status->framesDone >= frames;
             const Rectangle area = panels.pictureArea(canvas.extent());
-            if (const auto moved = viewport.interact(area, status->picture.extent, status->camera)) renderer.post([key = *moved](ViewSession& s) { s.setCamera(key); });
+            if (const auto moved = viewport.interact(area, status->picture.extent, status->camera))
+                renderer.post([key = *moved](ViewSession& s) { s.setCamera(key); });
             panels.drawProbe(*status, painter.probe(), area);
             panels.draw(*status);
             const bool shows = status->picture.texels && area.size.x > 0 && area.size.y > 0;
             const bool wished = panels.takeScreenshotWish() || (last && options.screenshotAtEnd);
             canvas.end(
                 [&](gpu::Commands& commands) {
-                    if (shows) painter.prepare(commands, status->picture, panels.layout(), panels.look(), area, viewport.toImage(status->picture), viewport.pixelUnderPointer(), canvas.blueFirst());
+                    if (shows)
+                        painter.prepare(commands, status->picture, panels.layout(), panels.look(), area, viewport.toImage(status->picture),
+                                        viewport.pixelUnderPointer(), canvas.blueFirst());
                 },
                 [&](gpu::Commands& commands, VkImage image) {
                     if (shows) painter.paint(commands, image);

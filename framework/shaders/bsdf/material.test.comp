@@ -12,7 +12,8 @@ const uint COUNT = 8u;
 void write() {
     for (uint v = 0u; v < 3u; ++v) {
         TestPositions(testArray(TEST_POSITIONS)).at[v] = vec4(vec3(v == 1u ? 1.0 : 0.0, v == 2u ? 1.0 : 0.0, 0.0), 0);
-        TestVertices(testArray(TEST_VERTICES)).at[v] = VertexRecord(packNormal(vec3(0, 0, 1)), packTangent(vec4(1, 0, 0, 1)), vec2(0), vec2(0), packColor(vec4(0, 1, 0.5, 1)));
+        TestVertices(testArray(TEST_VERTICES)).at[v] =
+            VertexRecord(packNormal(vec3(0, 0, 1)), packTangent(vec4(1, 0, 0, 1)), vec2(0), vec2(0), packColor(vec4(0, 1, 0.5, 1)));
     }
     TestInstances(testArray(TEST_INSTANCES)).at[0] = testInstance(vec4(1, 0, 0, 0), vec4(0, 1, 0, 0), vec4(0, 0, 1, 0));
     TestTextures(testArray(TEST_TEXTURES)).at[0] = TextureRecord(testArray(TEST_TEXELS), 1u, 1u, 1u, 0u, uvec2(0));

@@ -54,7 +54,8 @@ void testLeafOfOne(World w, uint leaf, GridRay r, inout Packet p, uint lone) {
                      uintBitsToFloat(uvec3(a, b.x)), uintBitsToFloat(uvec3(b.y, c)), uintBitsToFloat(uvec3(d, e.x)));
     uint t = floatBitsToUint(m.t), least = minFour(t);
     uint winner = minFour(t == least ? packetLane() & 3u : 3u);
-    Meeting nearest = Meeting(uintBitsToFloat(subgroupShuffle(least, 0u)), vec2(subgroupShuffle(m.barycentrics.x, winner), subgroupShuffle(m.barycentrics.y, winner)));
+    vec2 barycentrics = vec2(subgroupShuffle(m.barycentrics.x, winner), subgroupShuffle(m.barycentrics.y, winner));
+    Meeting nearest = Meeting(uintBitsToFloat(subgroupShuffle(least, 0u)), barycentrics);
     take(p, packetLane() == lone && nearest.t < p.tMax, nearest, min(first + winner, last));
 }
 

@@ -15,7 +15,8 @@ th, td { padding: 2px 12px; text-align: right; border-bottom: 1px solid #e6e6e6;
 th:first-child, td:first-child { text-align: left } .pm { color: #777 } .charts { display: flex; flex-wrap: wrap; gap: 1.5em }
 svg { max-width: 100%; height: auto; font-family: system-ui, sans-serif } svg .title { font-size: 14px; font-weight: 600 }
 .unbiased { color: #00734f; font-weight: 600 } .biased { color: #c03a00; font-weight: 600 } .inconclusive { color: #8a6d00; font-weight: 600 }
-td.reason { text-align: left; white-space: normal } .maps { display: flex; flex-wrap: wrap; gap: 1.5em } .maps figure { margin: 0 } figcaption { font-size: 13px }
+td.reason { text-align: left; white-space: normal } .maps { display: flex; flex-wrap: wrap; gap: 1.5em } .maps figure { margin: 0 }
+figcaption { font-size: 13px }
 svg .tick { font-size: 12px; fill: #444 } svg .label { font-size: 13px; fill: #222 } svg .grid { stroke: #e4e4e4 } svg .frame { stroke: #444; fill: none }
 )";
 

@@ -50,8 +50,8 @@ public:
             {"error_vs_rays", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, false); }},
             {"error_vs_frame", [](const Report& r, const Measure& m, const Cells& c) { return r.measuresFrames() ? r.errorByFrame(m, c, false) : ""; }},
             {"time_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.timeByPass(c); }, true},
-            {"stability",
-             [](const Report& r, const Measure& m, const Cells& c) { return r.measuresFrames() && scaleOf(m.metric).fromZero ? r.errorByFrame(m, c, true) : ""; }},
+            {"stability", [](const Report& r, const Measure& m,
+                             const Cells& c) { return r.measuresFrames() && scaleOf(m.metric).fromZero ? r.errorByFrame(m, c, true) : ""; }},
         };
         return kinds;
     }
@@ -100,7 +100,8 @@ private:
         if (summary_.missing > 0) html += fmt::format(" <b>{} runs are still missing.</b>", summary_.missing);
         html += "</p>\n<ul class=\"note\">\n";
         for (const std::string& metric : study_.metrics)
-            html += fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(isTemporal(metric) ? temporalMetricAbout(metric) : metricAbout(metric)));
+            html +=
+                fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(isTemporal(metric) ? temporalMetricAbout(metric) : metricAbout(metric)));
         if (study_.maskSwitched) html += "<li><b>.switched</b>: only where objects are seen that take another level at frame 0 or later</li>\n";
         if (study_.referenceFinest)
             html += "<li><b>.finest</b>: against the scene at its finest levels, so that what a coarser level loses counts too</li>\n";

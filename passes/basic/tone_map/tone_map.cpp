@@ -14,7 +14,8 @@ struct ToneMap final : Pass {
     Out<Image>   display{this, "display", "display-linear colour in [0, 1] (files and windows encode it to sRGB)", Format::rgba32f};
     Param<float> exposure{this, "exposure", 0.0f, {-20, 20}, "stops, added to the scene file's"};
     Param<Curve> curve{this, "curve", Curve::neutral, {"neutral", "aces", "reinhard", "linear"},
-                       "neutral: Khronos PBR Neutral (keeps hues and mid-tones); aces: Narkowicz' fit of the ACES curve; reinhard: of luminance; linear: clamp"};
+                       "neutral: Khronos PBR Neutral (keeps hues and mid-tones); aces: Narkowicz' fit of the ACES curve; reinhard: of luminance; "
+                       "linear: clamp"};
     PassThrough  off{this, color, display};
 
     ToneMap() { forDisplay = true; }

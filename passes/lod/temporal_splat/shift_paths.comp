@@ -83,7 +83,8 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     r.landing = pixel;
     float jacobian = mapped.jacobian;
     if (splats) {
-        if (!project(to, pixel, frameSize(), first, cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction, r.landing)) return shiftOfNothing();
+        vec3 seen = cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction;
+        if (!project(to, pixel, frameSize(), first, seen, r.landing)) return shiftOfNothing();
         if (way == BACK) {
             r.confidence = capped(historyReservoirs(place(r.landing)));
             if (r.confidence == 0) return shiftOfNothing();

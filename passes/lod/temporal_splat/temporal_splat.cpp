@@ -36,11 +36,15 @@ struct TemporalSplat final : Pass {
     Scratch<Buffer<uint>>    lists{this, "lists", "pixels whose paths land in one pixel, one list behind another", Count::perPixel()};
     Scratch<Buffer<uint>>    cursor{this, "cursor", "end of the lists", Count::fixed(1)};
     History                  reused{this};
-    Param<float>             backup{this, "backup", 0.5f, {0, 1}, "share of the history's confidence that goes to a path brought by reprojection, which is there where no path lands; 0: splatting alone"};
+    Param<float>             backup{this, "backup", 0.5f, {0, 1},
+                                    "share of the history's confidence that goes to a path brought by reprojection, which is there where no path lands; "
+                                    "0: splatting alone"};
     Param<VertexMapping>     vertexMapping{this, "vertexMapping", VertexMapping::uv, {"triangle", "uv", "uv_no_matching", "primary_only", "reconnection_only"},
-                                           "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle has it; the first hit alone; x_k alone"};
+                                           "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle "
+                                           "has it; the first hit alone; x_k alone"};
     Param<Matching>          matching{this, "matching", Matching::object, {"object", "world"},
-                                      "where points of one texture coordinate are compared by distance: as the mesh was made, or as this frame places it (which differs where a scale isn't uniform)"};
+                                      "where points of one texture coordinate are compared by distance: as the mesh was made, or as this frame places it "
+                                      "(which differs where a scale isn't uniform)"};
     SuffixRule               suffix{this};
     PassThrough              off{this, paths, pathsOut};
 
@@ -53,4 +57,5 @@ struct TemporalSplat final : Pass {
         frame.dispatch(shader, frame.size());
     }
 };
-LODESTIR_PASS(TemporalSplat, "temporal_splat.comp", "Splats last frame's paths to where their first hits are now and resamples them there, across changes of level (reservoir splatting).")
+LODESTIR_PASS(TemporalSplat, "temporal_splat.comp",
+              "Splats last frame's paths to where their first hits are now and resamples them there, across changes of level (reservoir splatting).")

@@ -22,7 +22,7 @@ struct MappingCheck {
 
 // Bits of MappingCheck.outcome.
 const uint MAPPING_TRIED = 1u;
-const uint MAPPING_HELD = 2u;     // by its coordinate the point's own triangle is found; where it isn't the point lies on an edge, or the coordinate is held too often
+const uint MAPPING_HELD = 2u;    // by its coordinate the point's own triangle is found; where not, it lies on an edge, or too many have the coordinate
 const uint MAPPING_THERE = 4u;    // tau is defined
 const uint MAPPING_BACK = 8u;     // and so is its inverse
 const uint MAPPING_SAME = 16u;    // which leads to the triangle that the point set out from

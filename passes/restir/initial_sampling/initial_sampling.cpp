@@ -14,16 +14,21 @@ struct InitialSampling final : Pass {
     Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
     Param<int>             bounces{this, "bounces", 4, {0, 30}, "most scatterings of a path; 1 is direct light only"};
-    Param<int>             segmentsMin{this, "segmentsMin", 1, {1, 31}, "shorter paths are left to other passes: 2 leaves out light that the camera sees directly, 3 direct light as well"};
+    Param<int>             segmentsMin{this, "segmentsMin", 1, {1, 31},
+                                       "shorter paths are left to other passes: 2 leaves out light that the camera sees directly, 3 direct light as well"};
     Param<int>             candidates{this, "candidates", 1, {1, 256}, "path trees a pixel and frame"};
-    Param<int>             switchCandidates{this, "switchCandidates", 1, {1, 256}, "path trees instead, in the one frame in which the object that a pixel's centre sees takes another level: there history knows the old one only"};
+    Param<int>             switchCandidates{this, "switchCandidates", 1, {1, 256},
+                                            "path trees instead, in the one frame in which the object that a pixel's centre sees takes another level: there "
+                                            "history knows the old one only"};
     Param<int>             lightCandidates{this, "lightCandidates", 1, {1, 256}, "lights that the first vertex chooses its light sample from"};
     LightTechnique         found{this};
     Param<bool>            roulette{this, "roulette", true, "Russian roulette on the throughput, outside the integrand (Lin et al. 2026, section 6.2.4)"};
-    Param<bool>            pixelCentre{this, "pixelCentre", false, "paths through the centre of each pixel; else the place inside the pixel belongs to the path"};
+    Param<bool>            pixelCentre{this, "pixelCentre", false,
+                                       "paths through the centre of each pixel; else the place inside the pixel belongs to the path"};
     Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes on both sides of a connection"};
     Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "least length of a connection, scene units"};
-    Param<bool>            forcedNee{this, "forcedNee", true, "lights found by light sampling are always connected, never replayed (Lin et al. 2026, section 6.2.3)"};
+    Param<bool>            forcedNee{this, "forcedNee", true,
+                                     "lights found by light sampling are always connected, never replayed (Lin et al. 2026, section 6.2.3)"};
 
     void execute(Frame& frame) override {
         const ShiftRules agreed{roughness, distance, forcedNee, std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique))};

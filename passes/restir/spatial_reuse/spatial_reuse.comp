@@ -7,7 +7,6 @@
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
 #include "restir/similar_pixels.glsl"
-#include "restir/similar_pixels.glsl"
 
 struct Reuse {
     Reservoir own;

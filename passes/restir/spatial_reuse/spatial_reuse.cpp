@@ -15,15 +15,20 @@ struct SpatialReuse final : Pass {
     In<ShiftRules>         rules{this, "rules", "of the pass that made the paths"};
     In<Paths>              paths{this, "paths", "a path of each pixel"};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
-    Out<Image>             color{this, "color", "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709", Format::rgba32f};
+    Out<Image>             color{this, "color",
+                                 "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section 6.3), "
+                                 "linear Rec. 709",
+                                 Format::rgba32f};
     Scratch<Paths>         between{this, "between", "what one round hands to the next", Count::perPixel()};
     Param<int>             neighbours{this, "neighbours", 3, {1, 16}, "neighbours a round"};
     Param<int>             rounds{this, "rounds", 1, {1, 8}, "each round reuses what the one before it made"};
     Neighbourhood          around{this};
-    Param<Mis>             mis{this, "mis", Mis::defensive, {"defensive", "pairwise"}, "resampling MIS weights: pairwise, with or without a share that is the pixel's own whatever neighbours say"};
+    Param<Mis>             mis{this, "mis", Mis::defensive, {"defensive", "pairwise"},
+                               "resampling MIS weights: pairwise, with or without a share that is the pixel's own whatever neighbours say"};
     PassThrough            off{this, paths, pathsOut};
 
-    /// Rounds alternate between two buffers so that the last one writes the output: argument 0 tells the round, 1 where it reads (0: input, 1: output, 2: between).
+    /// Rounds alternate between two buffers so that the last one writes the output: argument 0 tells the round, 1 where it reads (0: input, 1: output,
+    /// 2: between).
     void execute(Frame& frame) override {
         for (int round = 0, from = 0; round < rounds; ++round) {
             const bool toOutput = (rounds - round) % 2 == 1;
@@ -32,4 +37,5 @@ struct SpatialReuse final : Pass {
         }
     }
 };
-LODESTIR_PASS(SpatialReuse, "spatial_reuse.comp", "Resamples each pixel's path with paths of random neighbours, shifted there and back (ReSTIR PT's spatial reuse).")
+LODESTIR_PASS(SpatialReuse, "spatial_reuse.comp",
+              "Resamples each pixel's path with paths of random neighbours, shifted there and back (ReSTIR PT's spatial reuse).")

@@ -24,4 +24,5 @@ struct TemporalReprojection final : Pass {
     SuffixRule             suffix{this};
     PassThrough            off{this, paths, pathsOut};
 };
-LODESTIR_PASS(TemporalReprojection, "temporal_reprojection.comp", "Resamples each pixel's path with the one that last frame held where the pixel was (ReSTIR PT's temporal reuse).")
+LODESTIR_PASS(TemporalReprojection, "temporal_reprojection.comp",
+              "Resamples each pixel's path with the one that last frame held where the pixel was (ReSTIR PT's temporal reuse).")
