@@ -15,7 +15,6 @@
 namespace lodestir {
 namespace {
 
-
 /// Seeds above are kept for references, so that none is ever compared with itself.
 constexpr int maxSeed = std::numeric_limits<int>::max();
 constexpr int leastRuns = 16;  // an ensemble's: fewer tell nothing of their own skewness
