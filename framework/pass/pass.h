@@ -28,7 +28,7 @@
 
 namespace lodestir {
 
-/// lod_select takes a World and makes one.
+/// Passes that choose levels take a World and make one.
 template <> inline constexpr bool isChained<World> = true;
 
 struct Scene;         // framework/pass/scene.h

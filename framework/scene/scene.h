@@ -191,7 +191,7 @@ struct Environment {
 
 enum class LodMode : std::uint8_t { finest, screenError, distance, schedule, stochastic };
 struct LodSwitch { int frame = 0; std::uint32_t instance = none; int level = 0; };  ///< instance none: all
-/// Defaults of lod_select's parameters.
+/// How levels are chosen where a graph doesn't say.
 struct LodPolicy {
     LodMode mode = LodMode::finest;
     float pixelError = 1;
@@ -216,7 +216,7 @@ struct Scene {
     Environment environment;
     std::vector<int> cuts;            ///< frames at which history is void
     LodPolicy lod;
-    float exposure = 0;               ///< stops, default of tone_map
+    float exposure = 0;               ///< stops, for passes that make images for eyes
     std::size_t droppedTriangles = 0; ///< triangles of the files that were left out: without area, or with a vertex that is not finite
     std::vector<std::string> notes;   ///< what the loader decided: camera framed, sky added, extensions ignored, ...
 
