@@ -3,7 +3,7 @@
 //
 //   gpu_runner [TEST.test.comp ...] [--device NAME|INDEX]
 //
-// Without names it runs every *.test.comp of the shader folder. Exit code: 0 all passed, 1 something failed, 77 no device.
+// Without names it runs every *.test.comp of the framework's shaders and of the families of passes. Exit code: 0 all passed, 1 something failed, 77 no device.
 #include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/gpu/commands.h>
