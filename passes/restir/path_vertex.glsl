@@ -5,8 +5,8 @@
 // back finds the numbers that it started from. The grid is so fine that sums over it stand for the integrals. What leaves x_{j-1} in the
 // sampled direction arrives at x_j in the direction of its barycentrics, which is all that a connection knows of it.
 #include "base/random.glsl"
+#include "basic/light_technique.glsl"
 #include "bsdf/material.glsl"
-#include "light/light.glsl"
 #include "restir/criteria.glsl"
 #include "restir/jacobian.glsl"
 #include "restir/rules.h"
@@ -44,14 +44,12 @@ uint lightCandidates(ShiftRules rules, uint vertex) { return vertex == 1u ? rule
 /// omega_t of a light that the BSDF at `vertex` found with total density pdf (0: by a delta lobe, or it is seen by the camera), and light
 /// sampling with pdfLight (0: never, it is an unlit surface).
 float emissionShare(ShiftRules rules, uint vertex, float pdf, float pdfLight) {
-    if (pdf == 0.0 || pdfLight == 0.0 || rules.technique == TECHNIQUE_BSDF) return 1.0;
-    return rules.technique == TECHNIQUE_LIGHT ? 0.0 : misWeight(pdf, float(lightCandidates(rules, vertex)) * pdfLight);
+    return foundShare(rules.technique, pdf, float(lightCandidates(rules, vertex)) * pdfLight);
 }
 
 /// omega_t of a light that light sampling at `vertex` found with density pdfLight (0: a light without extent).
 float lightShare(ShiftRules rules, uint vertex, float pdfLight, float pdf) {
-    if (pdfLight == 0.0 || rules.technique == TECHNIQUE_LIGHT) return 1.0;
-    return rules.technique == TECHNIQUE_BSDF ? 0.0 : misWeight(float(lightCandidates(rules, vertex)) * pdfLight, pdf);
+    return sampledShare(rules.technique, float(lightCandidates(rules, vertex)) * pdfLight, pdf);
 }
 
 ConnectionCriteria criteriaOf(ShiftRules rules) { return ConnectionCriteria(rules.roughness, rules.distance); }

@@ -12,12 +12,8 @@ struct ShiftRules {
     float distance;        // least length of a connection, scene units
     uint forcedNee;        // 1: a light found by light sampling is connected whatever roughness and distance say
     uint lightCandidates;  // lights that light sampling chooses from at x_1; 1 at all other vertices
-    uint technique;        // TECHNIQUE_*
+    uint technique;        // TECHNIQUE_* (basic/light_technique.glsl)
 };
-
-const uint TECHNIQUE_BOTH = 0u;   // light sampling and BSDF sampling, weighed by the balance heuristic
-const uint TECHNIQUE_LIGHT = 1u;  // light sampling alone, but behind delta lobes
-const uint TECHNIQUE_BSDF = 2u;   // BSDF sampling alone, but for lights without extent
 
 LODESTIR_SHARED_END
 LODESTIR_SHARED(ShiftRules, "restir/rules.h")

@@ -18,7 +18,7 @@ struct Feedback final : Pass {
     Param<float> step{this, "step", 1.0f, {0, 100}, "what is added"};
 };
 /// Counts its runs in a State.
-struct Count final : Pass {
+struct Counter final : Pass {
     State<Image> runs{this, "runs", "number of runs since the last clearing", Format::r32f};
     Out<Image>   copy{this, "copy", "the same", Format::r32f};
     Param<bool>  flag{this, "flag", false, "does nothing"};
@@ -37,6 +37,31 @@ struct Bake final : Pass {
     Bake() { cadence = Cadence::onChange; }
 };
 
+/// All pixels count in one element of a buffer.
+struct Tally final : Pass {
+    Scratch<Buffer<uint>> counts{this, "counts", "what is counted in", Count::fixed(2)};
+    Out<Image>            copy{this, "copy", "the second count", Format::r32f};
+    Param<int>            at{this, "at", 1, {0, 9}, "which element"};
+
+    void execute(Frame& frame) override {
+        frame.fill(counts, 0);
+        frame.dispatch("tally.comp", frame.size());
+        frame.dispatch(shader, frame.size());
+    }
+};
+
+constexpr const char* tallyShader = R"(#version 460
+#include "pass.glsl"
+void main() {
+    if (skip()) return;
+    addCounts(uint(params.at), 2u);
+})";
+constexpr const char* tallyCopyShader = R"(#version 460
+#include "pass.glsl"
+void main() {
+    if (skip()) return;
+    storeCopy(pixel(), float(counts(1u)));
+})";
 constexpr const char* countShader = R"(#version 460
 #include "pass.glsl"
 void main() {
@@ -61,9 +86,12 @@ protected:
         writeFile(folder / "count.comp", std::string_view(countShader));
         writeFile(folder / "feedback.comp", std::string_view(feedbackShader));
         add<Feedback>("feedback", "feedback.comp");
-        add<Count>("count", "count.comp");
+        add<Counter>("count", "count.comp");
         add<Restart>("restart", "count.comp");
         add<Bake>("bake", "count.comp");
+        writeFile(folder / "tally.comp", std::string_view(tallyShader));
+        writeFile(folder / "tally_copy.comp", std::string_view(tallyCopyShader));
+        add<Tally>("tally", "tally_copy.comp");
     }
     ~RunnerTest() override { std::filesystem::remove_all(folder); }
 
@@ -118,6 +146,18 @@ TEST_F(RunnerTest, ResetResizeAndCutClearHistory) {
     frame();
     runner->resize({20, 9});
     EXPECT_EQ(frame(), 1);
+}
+
+TEST_F(RunnerTest, BuffersOfUintAreCountedIn) {
+    start(R"("t": {"type": "tally"})", "t.copy");
+    EXPECT_EQ(frame(), 2 * 20 * 12);
+    setParameter(*graph, "t.at", Json(2));
+    try {
+        runner->run();
+        FAIL() << "counted outside of the buffer";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("240 accesses outside a port; the first: port \"counts\" at (2, 0)"), std::string::npos) << error.what();
+    }
 }
 
 // A parameter changes what is added, never what was kept.

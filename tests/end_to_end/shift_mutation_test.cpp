@@ -162,10 +162,10 @@ Energies energiesOf(ShiftSession& session, const std::vector<std::string>& image
 // Energy after reuse against that of the same frames before it.
 TEST_F(Mutations, Energy) {
     plant(folder.path,
-          {{"failed_is_absent", "spatial_reuse", "spatial_reuse.comp",
-            "if (t.jacobian > 0) offer(p, pixel, item, t.path, t.hit, resamplingWeight(m, pHat, p.W, t.jacobian));",
-            "if (t.jacobian > 0) offer(p, pixel, item, t.path, t.hit, resamplingWeight(m, pHat, p.W, t.jacobian));\n"
-            "        else p.pairs = defensivePairwiseMis(p.pairs.canonical, p.pairs.neighbours - p.confidence);"},
+          {{"failed_is_absent", "spatial_reuse", "spatial_reuse.comp", "    } else if (result.jacobian > 0) {\n",
+            "    } else if (result.jacobian == 0) {\n"
+            "        r.pairs = defensivePairwiseMis(r.pairs.canonical, r.pairs.neighbours - r.confidence);\n"
+            "    } else {\n"},
            {"share_gone", "spatial_reuse", "restir/mis.glsl", "(theirs > 0.0 ? balanceMis(p.canonical * pHat, theirs) : 1.0)",
             "balanceMis(p.canonical * pHat, theirs) * float(theirs > 0.0)"},
            {"one_percent", "shade_reservoirs", "restir/reservoir.glsl", "r.F * r.W : vec3(0.0)", "r.F * (1.01 * r.W) : vec3(0.0)"},
@@ -198,8 +198,8 @@ TEST_F(Mutations, Energy) {
 // The furnace's answer is exact, so that even small faults of temporal weights stand out.
 TEST_F(Mutations, Furnace) {
     plant(folder.path, {{"cap_on_one_side", "temporal_reprojection", "temporal_reprojection.comp",
-                         "float mOwn = balanceMis(mine * target(p.own), p.confidence * back);",
-                         "float mOwn = balanceMis(mine * target(p.own), confidence(p.past) * back);"}});
+                         "float mOwn = balanceMis(mine * target(r.own), r.confidence * r.back);",
+                         "float mOwn = balanceMis(mine * target(r.own), confidence(r.past) * r.back);"}});
     ASSERT_FALSE(HasFailure());
     OrderedJson passes{{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 2}, {"technique", "bsdf"}, {"roulette", false}})}};
     const std::vector<std::string> images{"right_image", "cap_on_one_side_image"};

@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "base/random.glsl"
+#include "basic/light_technique.glsl"
 #include "bsdf/material.glsl"
 #include "light/emission.glsl"
 #include "light/light.glsl"
@@ -22,17 +23,7 @@ struct Path {
     bool ends;          // there is none
 };
 
-// Weight of light that the path runs into, which light sampling would have found with density `pdfLight` (0: never).
-float emissionWeight(float pdf, float pdfLight) {
-    if (pdf == 0 || pdfLight == 0 || params.technique == technique_bsdf) return 1;
-    return params.technique == technique_light ? 0 : misWeight(pdf, pdfLight);
-}
-
-// Weight of a light sample, whose direction BSDF sampling would have found with density `pdfBsdf`.
-float directWeight(LightSample l, float pdfBsdf) {
-    if (l.delta || params.technique == technique_light) return 1;
-    return params.technique == technique_bsdf ? 0 : misWeight(l.pdf, pdfBsdf);
-}
+uint technique() { return uint(params.technique); }
 
 uint pathItems() { return uint(params.spp); }
 
@@ -59,13 +50,16 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
 bool scatter(inout Path p, World w, Hit hit) {
     vec3 direction = p.ray.direction;
     if (hit.primitive == NONE) {
-        p.radiance += p.throughput * environmentRadiance(w, direction) * emissionWeight(p.pdf, environmentPdf(w, direction));
+        p.radiance += p.throughput * environmentRadiance(w, direction) * foundShare(technique(), p.pdf, environmentPdf(w, direction));
         return false;
     }
     Surface s = surfaceAt(w, hit, p.ray);
     p.throughput *= segmentTransmittance(w, s, hit.t);
     vec3 emitted = emittedRadiance(w, s);
-    if (emitted != vec3(0)) p.radiance += p.throughput * emitted * emissionWeight(p.pdf, lightPdf(w, hit.instance, hit.primitive, direction, hit.t));
+    if (emitted != vec3(0)) {
+        float pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, hit.t);
+        p.radiance += p.throughput * emitted * foundShare(technique(), p.pdf, pdfLight);
+    }
     if (p.scatterings == params.bounces) return false;
     uint vertex = ++p.scatterings;
     Bsdf b = bsdfAt(w, s);
@@ -76,7 +70,7 @@ bool scatter(inout Path p, World w, Hit hit) {
         LightSample l = sampleLight(w, s.position, randomBits3(p.seed, vertex, RANDOM_LIGHT_CHOICE), random3(p.seed, vertex, RANDOM_LIGHT_POINT));
         float pdfBsdf;
         vec3 f = bsdfEval(b, wo, l.direction, pdfBsdf);
-        p.direct = p.throughput * f * l.radianceOverPdf * directWeight(l, pdfBsdf);
+        p.direct = p.throughput * f * l.radianceOverPdf * sampledShare(technique(), l.pdf, pdfBsdf);
         p.toLight = p.direct != vec3(0);
         if (p.toLight) p.ray = shadowRay(w, s, l);
     }

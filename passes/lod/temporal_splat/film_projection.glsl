@@ -5,7 +5,8 @@
 
 /// Film area per barycentric area of what pixel `p` of an image of `size` pixels hit (per solid angle of the environment), as seen through
 /// the lens point that `hit` holds: |n.w| / r^2 and 1 / cos^3 for the inclination of the film (Liu et al. 2025, Reservoir Splatting); the film's own size
-/// makes it right for a camera that zooms. Rays of an orthographic camera don't part: |n.w| alone, and nothing for the environment, which keeps its place on the film.
+/// makes it right for a camera that zooms. Rays of an orthographic camera don't part: |n.w| alone, and nothing for the environment, which keeps its place
+/// on the film.
 float filmTerm(World w, ivec2 p, uvec2 size, PrimaryHit hit) {
     Ray ray = cameraRay(w, filmOf(p, hit.film, size), hit.lens);
     float connection = 1.0, film = length(w.camera.right) * length(w.camera.up);
