@@ -13,6 +13,7 @@
 #include <optional>
 
 namespace lodestir {
+
 glm::uvec2 readSize(const std::string& option, const std::string& text) {
     glm::uvec2 size{0};
     const char* end = text.data() + text.size();

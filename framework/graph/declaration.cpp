@@ -59,7 +59,9 @@ public:
 
     void run() {
         for (const Wire& wire : wiresOf(pass_)) {
-            if (!sharesName(wire)) checkName("port", wire.name());
+            if (sharesName(wire)) continue;
+            checkName("port", wire.name());
+            if (wire.bundle) checkMembers(*wire.bundle);
         }
         for (const Parameter* parameter : pass_.parameters) checkName("parameter", parameter->name);
         for (const Port* port : pass_.ports) checkGenerated(*port);
@@ -92,6 +94,14 @@ private:
         }
     }
 
+    void checkMembers(const BundlePort& bundle) {
+        for (const BundlePort::Member& member : bundle.members) {
+            const std::string start = fmt::format("member \"{}\" of port \"{}\" ", member.inBundle, bundle.name);
+            if (!isGlslName(member.inBundle)) add(start + "can't be a name in a shader", "start with a small letter, then letters and digits");
+            else if (!names_.insert(member.identifier()).second) add(fmt::format("{}meets another \"{}\"", start, member.identifier()), "choose another name");
+        }
+    }
+
     /// colorSize() of port color would meet a port named colorSize.
     void checkGenerated(const Port& port) {
         if (port.name.empty()) return;
@@ -99,7 +109,6 @@ private:
         std::string capital = name;
         capital[0] = char(std::toupper(static_cast<unsigned char>(capital[0])));
         std::vector<std::string> made{name + "Size", name + "Count", name + "Rgba", "store" + capital, "add" + capital};
-        if (port.bundle) made.push_back(name);
         for (const std::string& text : made) {
             if (names_.contains(text)) add(fmt::format("\"{}\" is what pass.glsl makes of port \"{}\"", text, port.name), "choose another name");
         }

@@ -70,12 +70,12 @@ std::vector<std::string> keysOf(const Json* object) {
     return keys;
 }
 
-void applyVariant(Json& source, const std::string& name, const Path& file) {
+void applyVariant(Json& source, const std::string& name, const Where& where) {
     const Json* variants = source.find("variants");
     const Json* patch = variants ? variants->find(name) : nullptr;
     const std::vector<std::string> known = keysOf(variants);
     if (!patch)
-        throw Error(Where{file.string()}, "no variant \"" + name + "\"", known.empty() ? "the graph has none" : didYouMean(name, known));
+        throw Error(where, "no variant \"" + name + "\"", known.empty() ? "the graph has none" : didYouMean(name, known));
     if (!patch->isObject()) throw Error(patch->where(), "a variant must be an object: a merge patch of the graph");
     source.merge(Json(*patch));
 }
@@ -288,7 +288,7 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
         if (!variants->isObject()) throw Error(variants->where(), "\"variants\" must be an object of merge patches");
         description.variants = keysOf(variants);
     }
-    if (options.variant) applyVariant(description.source, *options.variant, file);
+    if (options.variant) applyVariant(description.source, *options.variant, options.variantWhere.file.empty() ? Where{file.string()} : options.variantWhere);
     description.source.remove("variants");
     applyOptions(description.source, options, problems);
     DescriptionReader(description, problems).read();

@@ -61,6 +61,7 @@ struct GraphOptions {
     std::optional<std::uint32_t> seed;
     std::vector<Setting> set;   ///< "pass.parameter", "frame.seed", ...; what is wrong with one is said at the place of its value
     std::optional<std::string> variant;
+    Where variantWhere = {};             ///< of that name; empty: it is told at the graph file
     std::optional<std::string> show;  ///< "pass" or "pass.port"
 };
 

@@ -201,7 +201,7 @@ private:
         line("    {}(port.address).at[i] = value;", memory);
         line("}}");
         if (port.type.name != "uint") return;
-        line("uint add{}(uint i, uint value) {{", capitalised(port.name));
+        line("uint add{}(uint i, uint value) {{", capitalised(port.identifier()));
         line("    const PortRecord port = passBlock().{};", name);
         line("    if (isOutside({}u, ivec2(i, 0), uvec2(port.size.x, 1))) return 0u;", i);
         line("    return atomicAdd({}(port.address).at[i], value);", memory);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <dlfcn.h>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -61,19 +62,18 @@ void PluginLibraries::addBuiltIn(const std::string& type, const Plugin& plugin) 
 Path PluginLibraries::fileOf(const std::string& folder, const Where& where) const {
     const Path name = Path(folder) / ("lib" + folder + ".so");
     std::error_code none;
+    std::set<Path> found;
+    const auto look = [&](const Path& file) {
+        if (fs::is_regular_file(file, none)) found.insert(fs::weakly_canonical(file, none));
+    };
     for (const Path& root : folders_) {
-        if (fs::is_regular_file(root / name, none)) return root / name;
-        Path found;
-        for (const fs::directory_entry& family : fs::directory_iterator(root, none)) {
-            const Path file = family.path() / name;
-            if (!fs::is_regular_file(file, none)) continue;
-            if (!found.empty())
-                throw Error(where, "two families have a pass type \"" + folder + "\": " + found.string() + " and " + file.string(), "rename one");
-            found = file;
-        }
-        if (!found.empty()) return found;
+        look(root / name);
+        for (const fs::directory_entry& family : fs::directory_iterator(root, none)) look(family.path() / name);
     }
-    return {};
+    // Not the first of them: nobody could tell which runs.
+    if (found.size() > 1)
+        throw Error(where, "there are two passes \"" + folder + "\": " + found.begin()->string() + " and " + std::next(found.begin())->string(), "rename one");
+    return found.empty() ? Path() : *found.begin();
 }
 
 std::vector<std::string> PluginLibraries::knownFolders() const {
@@ -123,6 +123,7 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     const std::size_t dot = type.find('.');
     const std::string folder = type.substr(0, dot);
     const Path file = fileOf(folder, where);
+    if (file.empty() && folder.find('/') != folder.npos) throw Error(where, "no pass type \"" + type + "\"", "write the pass without its family");
     if (file.empty()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(folder, knownFolders()));
 
     const std::vector<const Plugin*>& plugins = library(folder, file, where).plugins;

@@ -13,7 +13,7 @@
 namespace lodestir {
 
 /// Pass types are named "folder" where the folder's library holds one pass, else "folder.Struct", whatever family the folder is in. The library
-/// of folder x is x/libx.so or FAMILY/x/libx.so in passFolder() or, after that, in the extra folders. Loaded libraries stay mapped until the
+/// of folder x is x/libx.so or FAMILY/x/libx.so in passFolder() or in an extra folder. Loaded libraries stay mapped until the
 /// process ends.
 class LODESTIR_API PluginLibraries {
 public:
@@ -44,7 +44,7 @@ private:
     };
     /// The library of one folder, loaded when first asked for.
     const Library& library(const std::string& folder, const Path& file, const Where& where);
-    Path fileOf(const std::string& folder, const Where& where) const;  ///< empty: there is none; Error at `where`: in two families
+    Path fileOf(const std::string& folder, const Where& where) const;  ///< empty: there is none; Error at `where`: there are two
     std::vector<std::string> knownFolders() const;                     ///< sorted, with the built-in types
 
     std::vector<Path> folders_;

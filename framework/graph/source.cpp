@@ -138,16 +138,19 @@ Wire anyWire(const GraphNode& node, const std::string& name, const Where& where)
                 member == all.end() ? didYouMean(name, namesOf(all)) : fmt::format("did you mean \"{}\"?", member->name()));
 }
 
-/// The port whose content a look at `source` shows: an input is what it is wired to, a pass that is off is what it hands through.
-Source madeAt(const Graph& graph, const Source& source, const std::string& name, const Where& where) {
+/// The port whose content a look at `source` shows: an input is what it is wired to, a pass that is off is what it hands through. `whole`: it is a
+/// member of a bundle that was asked for as a whole.
+Source madeAt(const Graph& graph, const Source& source, const std::string& name, bool whole, const Where& where) {
     const bool isInput = graph.port(source).isInput();
     const std::optional<Source> real =
         isInput ? graph.nodes[std::size_t(source.node)].inputs[std::size_t(source.port)] : throughBypasses(graph.nodes, source, where);
     const std::optional<Source> made = isInput && real ? throughBypasses(graph.nodes, *real, where) : real;
     if (!made) throw Error(where, fmt::format("\"{}\" is not wired, so there is nothing to show", graph.nameOf(source)));
-    if (made->prev)
-        throw Error(where, fmt::format("\"{}\" is last frame's value", name),
-                    fmt::format("name {}", graph.nameOf({made->node, made->port})));
+    if (made->prev) {
+        const GraphNode& maker = graph.nodes[std::size_t(made->node)];
+        const std::string shown = whole ? fmt::format("{}.{}", maker.name, wireOf(*maker.pass, made->port).name()) : graph.nameOf({made->node, made->port});
+        throw Error(where, fmt::format("\"{}\" is last frame's value", name), "name " + shown);
+    }
     return *made;
 }
 
@@ -162,7 +165,7 @@ std::vector<Source> findSources(const Graph& graph, const std::string& name, con
     const GraphNode& node = graph.nodes[std::size_t(index)];
     const Wire wire = dot == name.npos ? onlyOutput(node, where) : anyWire(node, name.substr(dot + 1), where);
     std::vector<Source> sources;
-    for (int i = 0; i < wire.count; ++i) sources.push_back(madeAt(graph, {index, wire.first + i}, name, where));
+    for (int i = 0; i < wire.count; ++i) sources.push_back(madeAt(graph, {index, wire.first + i}, name, wire.bundle != nullptr, where));
     return sources;
 }
 

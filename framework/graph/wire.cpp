@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lodestir {
 
 bool Wire::fits(const Wire& other) const {
@@ -37,7 +39,8 @@ std::vector<Wire> membersOf(const Wire& wire) {
 
 std::vector<std::string> namesOf(const std::vector<Wire>& wires) {
     std::vector<std::string> names;
-    for (const Wire& wire : wires) names.emplace_back(wire.name());
+    for (const Wire& wire : wires)
+        if (std::ranges::find(names, wire.name()) == names.end()) names.emplace_back(wire.name());  // what comes in may go out by the same name
     return names;
 }
 

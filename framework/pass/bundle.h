@@ -32,6 +32,7 @@ template <class B>
 concept Bundle = requires {
     { B::name } -> std::convertible_to<std::string_view>;
     { std::span(B::members) } -> std::convertible_to<std::span<const BundleMember>>;
+    requires std::size(B::members) > 0;
 };
 
 /// A bundle as a pass declares it: enters a port for each member into the pass's list, one after the other.

@@ -170,6 +170,7 @@ struct CameraKey {
     float height = 0;        ///< of what an orthographic camera sees, scene units; 0: perspective
     float aperture = 0;      ///< lens radius, scene units; 0: pinhole
     float focus = 1;         ///< distance of the plane in focus along the view direction, scene units
+    bool operator==(const CameraKey&) const = default;
 };
 
 /// Keys over frames (linear between, constant outside), or riding on a node of the file.

@@ -58,9 +58,10 @@ std::string samplesParameter(const Graph& graph, const Where& where) {
     return name;
 }
 
-bool sameView(const CameraKey& a, const CameraKey& b) {
-    return std::tie(a.position, a.target, a.up, a.fovy, a.height, a.aperture, a.focus) ==
-           std::tie(b.position, b.target, b.up, b.fovy, b.height, b.aperture, b.focus);
+/// But for the frame that they belong to.
+bool sameView(CameraKey a, const CameraKey& b) {
+    a.frame = b.frame;
+    return a == b;
 }
 
 /// The first measured frame at which the scene is as it is at `frame`, so that one reference serves for both.
@@ -88,16 +89,18 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
         .size = study_.size,
         .seed = seed,
         .set = choice.set,
-        .variant = choice.variant};
+        .variant = choice.variant,
+        .variantWhere = choice.variantWhere};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port =
-        choice.port.empty() ? linearSource(staged.graph, staged.graph.show) : findSource(staged.graph, choice.port, choice.where);
+        choice.port.empty() ? linearSource(staged.graph, staged.graph.show) : findSource(staged.graph, choice.port, choice.portWhere);
     const Port& port = staged.graph.port(staged.port);
+    const Where& where = choice.port.empty() ? choice.where : choice.portWhere;
     if (port.type.kind != PortType::Kind::image)
-        throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
+        throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
     if (sizeOf(staged.graph, staged.port.node, staged.port.port, study_.size) != study_.size)
-        throw Error(choice.where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
+        throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
                     "name another with \"port\"");
     return staged;
 }

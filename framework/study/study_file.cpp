@@ -185,19 +185,23 @@ private:
         const Json* file = fields.require("graph");
         if (file) graph.where = file->where();
         if (file) attempt([&] { graph.graph = resolve(*file, "\"graph\""); });
-        if (const Json* variant = fields.find("variant")) attempt([&] { graph.variant = variant->asString("\"variant\""); });
+        if (const Json* variant = fields.find("variant")) attempt([&] {
+            graph.variant = variant->asString("\"variant\"");
+            graph.variantWhere = variant->where();
+        });
+        if (const Json* port = fields.find("port")) graph.portWhere = port->where();
         fields.text("port", graph.port);
         if (const Json* set = fields.find("set"))
             attempt([&] {
-                for (const auto& [name, setting] : set->members("\"set\"")) graph.set.push_back({checkedName(name, setting), setting});
+                for (const auto& [name, setting] : set->members("\"set\"")) graph.set.push_back({checkedName(name, setting, setting.keyWhere()), setting});
             });
     }
-    static std::string checkedName(const std::string& name, const Json& value) {
+    static std::string checkedName(const std::string& name, const Json& value, const Where& nameWhere) {
         const std::size_t dot = name.find('.');
         if (dot == 0 || dot == name.npos || dot + 1 == name.size() || name.find('=') != name.npos)
-            throw Error(value.keyWhere(), fmt::format("\"{}\" names no parameter", name), "write \"pass.parameter\"");
+            throw Error(nameWhere, fmt::format("\"{}\" names no parameter", name), "write \"pass.parameter\"");
         if (name.starts_with("frame."))
-            throw Error(value.keyWhere(), fmt::format("\"{}\" belongs to the whole study", name),
+            throw Error(nameWhere, fmt::format("\"{}\" belongs to the whole study", name),
                         "size, seeds and frames stand beside \"techniques\"");
         if (value.isArray() || value.isObject() || value.isNull())
             throw Error(value.where(), fmt::format("a parameter's value can't be {}", value.kindName()),
@@ -272,7 +276,7 @@ private:
                     throw Error(values.keyWhere(), fmt::format("\"{}\" is set and varied", name), "remove one of them");
                 Knob knob{.name = name};
                 for (const Json& item : values.items()) {
-                    checkedName(name, item);
+                    checkedName(name, item, values.keyWhere());
                     if (std::ranges::any_of(knob.values, [&](const Json& v) { return v.dump(-1) == item.dump(-1); }))
                         throw Error(item.where(), fmt::format("\"{}\" takes {} twice", name, item.dump(-1)));
                     knob.values.push_back(item);

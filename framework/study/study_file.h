@@ -22,6 +22,7 @@ struct StudyGraph {
     std::vector<Setting> set;
     std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
     Where where;       ///< of the graph's name
+    Where variantWhere, portWhere;
 };
 
 /// A parameter that takes several values.

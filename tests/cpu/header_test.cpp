@@ -120,6 +120,26 @@ TEST(Header, CompilesForEveryFormatAndBinding) {
     EXPECT_FALSE(compile(pass, bindings(pass, false, Format::rgba16f), shader, {{"CHECK_BOUNDS", "1"}}).words.empty());
 }
 
+struct Counters {
+    static constexpr std::string_view name = "Counters";
+    static constexpr std::array members{bundled<uint>("hits", "how many"), bundled<float>("sums", "how much")};
+};
+struct CountsInABundle final : Pass {
+    In<Counters>  counters{this, "counters", "before"};
+    Out<Counters> countersOut{this, "counters", "after", Count::fixed(4)};
+};
+
+TEST(Header, MembersOfABundleAreCountedIn) {
+    const CountsInABundle pass;
+    const std::string text = R"(#version 460
+#include "pass.glsl"
+void main() {
+    if (skip()) return;
+    storeCountersSums(addCountersHits(1u, countersHits(0u)), madeCountersSums(2u) + countersSums(0u));
+})";
+    EXPECT_FALSE(compile(pass, bindings(pass, true, Format::rgba16f), text).words.empty());
+}
+
 struct Changed final : Pass {
     In<Image>         color{this, "color", "before"};
     In<Buffer<float>> list{this, "list", "before"};
@@ -263,8 +283,8 @@ TEST(Header, RefusesNamesThatShadersCannotUse) {
               "pass type \"clash\": parameter \"pixel\" is a name that pass.glsl uses itself; choose another name\n"
               "pass type \"clash\": \"colorSize\" is what pass.glsl makes of port \"color\"; choose another name\n"
               "pass type \"clash\": \"colorSize\" is what pass.glsl makes of port \"color\"; choose another name\n"
-              "pass type \"bundles\": port \"sample\" is a reserved word of GLSL; choose another name\n"
-              "pass type \"bundles\": \"particlesPlaces\" is what pass.glsl makes of port \"particles.places\"; choose another name\n");
+              "pass type \"bundles\": port \"particlesPlaces\" is declared twice; ports and parameters share one set of names\n"
+              "pass type \"bundles\": port \"sample\" is a reserved word of GLSL; choose another name\n");
 }
 
 }  // namespace

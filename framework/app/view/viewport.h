@@ -22,7 +22,6 @@ public:
     /// From pixels of the rectangle to pixels of the image: a picture of an older camera is warped to where the camera is by now.
     glm::mat3 toImage(const Picture& picture) const;
     glm::ivec2 pixelUnderPointer() const { return pixel_; }  ///< {-1, -1}: none
-    bool dragging() const { return button_ >= 0; }
 
 private:
     glm::vec2 imagePlace(glm::vec2 pointer) const { return centre_ + (pointer - 0.5f * glm::vec2(place_.size)) / scale_; }

@@ -11,10 +11,9 @@ struct Ray {
     float tMin;
     vec3 direction;  // need not be unit: t counts in its length
     float tMax;      // < 0: no ray (a lane that only keeps its subgroup company)
-    uint flags;      // RAY_*
+    uint flags;      // RAY_*; bits 8 to 31 are free for where levels are chosen ray by ray
 };
 const uint RAY_THROUGH_PANES = 1u;  // an any-hit ray goes on through what lets light straight through (trace/pane.glsl); without, that ends it
-const uint RAY_LEVEL_BITS = 8u;     // from here on, up to bit 31: the ray's own bits where levels are chosen ray by ray
 
 struct Hit {
     float t;            // of an any-hit ray that nothing ended, t and barycentrics are the share of light that is left (light/light.glsl)
