@@ -3,14 +3,14 @@
 // path that is to be reused goes FORTH, and the path that it is weighed against goes BACK, so that either is known where the other was made.
 //
 // The includer defines, before it includes this file,
-//   struct Reuse { ... };                                  all that a pixel keeps from shift to shift
-//   uint reusePartners();                                  of a pixel
-//   World reuseWorld(uint partner, uint way);              that the shift leads to
-//   void reuseStart(inout Reuse r, World w, ivec2 pixel);  before the first shift; w is that shift's
+//   struct Reuse { ... };                                    all that a pixel keeps from shift to shift
+//   uint reusePartners();                                    of a pixel
+//   World reuseWorld(World now, uint partner, uint way);     that the shift leads to
+//   void reuseStart(inout Reuse r, World now, ivec2 pixel);  before the first shift
 //   ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way);    where a path comes from and goes to; shiftOfNothing(): nowhere
 //   void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result);  what has become of it; jacobian 0: there is no such path
-//   void reuseEnd(Reuse r, ivec2 pixel);                   after the last shift
-// FORTH, BACK and what shifts are made of are in restir/shift.glsl. The pass has an input `rules`, those that the paths were made by.
+//   void reuseEnd(Reuse r, ivec2 pixel);                     after the last shift
+// where `now` is the pass's input `world`. FORTH, BACK and what shifts are made of are in restir/shift.glsl. The pass has an input `rules`, those that the paths were made by.
 
 struct Path {
     Shift shift;
@@ -18,10 +18,10 @@ struct Path {
 };
 
 bool isShift(uint item) { return item < WAYS * reusePartners(); }
-uint pathItems() { return max(WAYS * reusePartners(), 1u); }
-World pathWorld(uint item) { return reuseWorld(item / WAYS, item % WAYS); }
+uint pathItems(World now) { return max(WAYS * reusePartners(), 1u); }
+World pathWorld(World now, uint item) { return reuseWorld(now, item / WAYS, item % WAYS); }
 
-void pathStart(inout Path p, World w, ivec2 pixel) { reuseStart(p.reuse, w, pixel); }
+void pathStart(inout Path p, World now, ivec2 pixel) { reuseStart(p.reuse, now, pixel); }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     ShiftTask task = shiftOfNothing();

@@ -3,17 +3,17 @@
 //
 // The includer defines, before it includes this file,
 //   struct Path { ... };                                      all that a pixel keeps from ray to ray and from item to item
-//   uint pathItems();                                         paths of a pixel, walked one after the other (samples, shifts, ...); at least 1
-//   World pathWorld(uint item);                               that the item's rays are traced in
-//   void pathStart(inout Path path, World w, ivec2 pixel);    before item 0, when `path` holds nothing yet; w is item 0's
+//   uint pathItems(World now);                                paths of a pixel, walked one after the other (samples, shifts, ...); at least 1
+//   World pathWorld(World now, uint item);                    that the item's rays are traced in
+//   void pathStart(inout Path path, World now, ivec2 pixel);  before item 0, when `path` holds nothing yet
 //   bool pathBegin(inout Path path, World w, ivec2 pixel, uint item);  begins an item; false: it has no ray
 //   Ray pathRay(inout Path path, out bool anyHit, out uint purpose);   the next ray; anyHit: only whether it hits matters; RAYS_... for the ledger
 //   bool pathStep(inout Path path, World w, Hit hit);         goes on from what that ray hit; false: there is no other ray
 //   void pathItemEnd(inout Path path, World w, ivec2 pixel, uint item);  after the item's last ray, also where it had none
 //   void pathEnd(Path path, ivec2 pixel);                     after the last item
-// pathRay may be called several times for one ray, and so has to give the same one. The whole subgroup walks in step: its paths alternate
-// between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both lanes that go their own way and lanes
-// that start their next path early).
+// where `now` is the pass's input `world`, read once. pathRay may be called several times for one ray, and so has to give the same one. The whole
+// subgroup walks in step: its paths alternate between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both
+// lanes that go their own way and lanes that start their next path early).
 //
 // pass.glsl gives `push` (base/frame.h) and countRays.
 #include "trace/trace.glsl"
@@ -48,12 +48,12 @@ void driverCount(uint purpose) {
 void driverWalk(ivec2 pixel) {
     bool inside = all(lessThan(uvec2(pixel), push.extent));
     Path path;
-    uint items = pathItems();
-    World world;
+    World now = world();
+    uint items = pathItems(now);
+    if (inside) pathStart(path, now, pixel);
     for (uint item = 0u; item < items; ++item) {
-        world = pathWorld(item);
-        if (inside && item == 0u) pathStart(path, world, pixel);
-        bool live = inside && pathBegin(path, world, pixel, item);
+        World w = pathWorld(now, item);
+        bool live = inside && pathBegin(path, w, pixel, item);
         bool phase = false;  // which kind of ray the subgroup traces now
         while (subgroupAny(live)) {
             bool anyHit = false;
@@ -63,15 +63,15 @@ void driverWalk(ivec2 pixel) {
             bool mine = live && anyHit == phase;
             if (!mine) ray.tMax = -1.0;
             if (subgroupAny(mine)) {
-                Hit hit = traceRay(world, ray, phase);
+                Hit hit = traceRay(w, ray, phase);
                 if (mine) {
                     driverCount(purpose);
-                    live = pathStep(path, world, hit);
+                    live = pathStep(path, w, hit);
                 }
             }
             phase = !phase;
         }
-        if (inside) pathItemEnd(path, world, pixel, item);
+        if (inside) pathItemEnd(path, w, pixel, item);
     }
     if (inside) pathEnd(path, pixel);
 }

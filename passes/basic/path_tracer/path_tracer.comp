@@ -25,11 +25,11 @@ struct Path {
 
 uint technique() { return uint(params.technique); }
 
-uint pathItems() { return uint(params.spp); }
+uint pathItems(World now) { return uint(params.spp); }
 
-World pathWorld(uint item) { return world(); }
+World pathWorld(World now, uint item) { return now; }
 
-void pathStart(inout Path p, World w, ivec2 pixel) { p.radiance = vec3(0); }
+void pathStart(inout Path p, World now, ivec2 pixel) { p.radiance = vec3(0); }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uint sampleIndex = frameIndex() * uint(params.spp) + item;

@@ -14,11 +14,11 @@ struct Path {
     Hit hit;
 };
 
-uint pathItems() { return 1; }
+uint pathItems(World now) { return 1; }
 
-World pathWorld(uint item) { return world(); }
+World pathWorld(World now, uint item) { return now; }
 
-void pathStart(inout Path p, World w, ivec2 pixel) {}
+void pathStart(inout Path p, World now, ivec2 pixel) {}
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());

@@ -30,8 +30,8 @@ uint place(ivec2 p) { return pixelIndex(p); }
 float capped(Reservoir r) { return cappedConfidence(confidence(r), params.cap); }
 
 uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : params.backup > 0 ? 2 : 1; }
-World reuseWorld(uint partner, uint way) {
-    if (way == FORTH) return world();
+World reuseWorld(World now, uint partner, uint way) {
+    if (way == FORTH) return now;
     return worldPrev();
 }
 

@@ -21,16 +21,16 @@ bool switched(World w, PrimaryHit h) { return false; }
 uint mostTrees() { return uint(params.candidates); }
 #endif
 
-uint pathItems() { return switchesLevels(world()) ? mostTrees() : uint(params.candidates); }
+uint pathItems(World now) { return switchesLevels(now) ? mostTrees() : uint(params.candidates); }
 
-World pathWorld(uint item) { return world(); }
+World pathWorld(World now, uint item) { return now; }
 
-void pathStart(inout Path p, World w, ivec2 pixel) {
+void pathStart(inout Path p, World now, ivec2 pixel) {
     treesStart(p.tree);
     p.trees = uint(params.candidates);
 #if HAS_hits
     p.centre = hits(pixelIndex(pixel));
-    if (switchesLevels(w) && switched(w, p.centre)) p.trees = mostTrees();
+    if (switchesLevels(now) && switched(now, p.centre)) p.trees = mostTrees();
 #endif
 }
 

@@ -23,9 +23,9 @@ struct Path {
     uvec2 decisions;
 };
 
-uint pathItems() { return 1; }
-World pathWorld(uint item) { return world(); }
-void pathStart(inout Path p, World w, ivec2 pixel) {}
+uint pathItems(World now) { return 1; }
+World pathWorld(World now, uint item) { return now; }
+void pathStart(inout Path p, World now, ivec2 pixel) {}
 
 bool startBsdf(inout Path p) {
     p.asksLight = false;

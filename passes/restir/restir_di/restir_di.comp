@@ -12,9 +12,9 @@ struct Path {
     vec3 unshadowed, radiance;
 };
 
-uint pathItems() { return 1; }
-World pathWorld(uint item) { return world(); }
-void pathStart(inout Path p, World w, ivec2 pixel) {}
+uint pathItems(World now) { return 1; }
+World pathWorld(World now, uint item) { return now; }
+void pathStart(inout Path p, World now, ivec2 pixel) {}
 
 uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + 1); }
 

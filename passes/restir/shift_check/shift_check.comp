@@ -54,8 +54,8 @@ const uint OF_PIXEL = 1;
 bool leadsHere(uint trip, uint way) { return (trip == OF_PARTNER) == (way == FORTH); }
 
 uint reusePartners() { return 2; }
-World reuseWorld(uint trip, uint way) {
-    if (leadsHere(trip, way)) return world();
+World reuseWorld(World now, uint trip, uint way) {
+    if (leadsHere(trip, way)) return now;
     return partnerWorld();
 }
 

@@ -44,7 +44,7 @@ ivec2 neighbourOf(World w, ivec2 pixel, PixelView mine, uint i) {
 }
 
 uint reusePartners() { return uint(params.neighbours); }
-World reuseWorld(uint partner, uint way) { return world(); }
+World reuseWorld(World now, uint partner, uint way) { return now; }
 
 void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.own = inputReservoir(pixel);

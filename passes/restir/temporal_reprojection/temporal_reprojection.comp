@@ -23,8 +23,8 @@ struct Reuse {
 uint place(ivec2 p) { return pixelIndex(p); }
 
 uint reusePartners() { return historyValid() ? 1 : 0; }
-World reuseWorld(uint partner, uint way) {
-    if (way == FORTH) return world();
+World reuseWorld(World now, uint partner, uint way) {
+    if (way == FORTH) return now;
     return worldPrev();
 }
 
