@@ -10,7 +10,8 @@
 //   ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way);    where a path comes from and goes to; shiftOfNothing(): nowhere
 //   void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result);  what has become of it; jacobian 0: there is no such path
 //   void reuseEnd(Reuse r, ivec2 pixel);                     after the last shift
-// where `now` is the pass's input `world`. FORTH, BACK and what shifts are made of are in restir/shift.glsl. The pass has an input `rules`, those that the paths were made by.
+// where `now` is the pass's input `world`. FORTH, BACK and what shifts are made of are in restir/shift.glsl. The pass has an input `rules`, those that the
+// paths were made by.
 
 struct Path {
     Shift shift;
