@@ -50,7 +50,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.refresh = walksSuffix(w, worldPrev());
 }
 
-ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
+bool reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way, out ShiftTask task) {
     bool splats = partner == SPLATTED;
     World from, now = to;
     if (way == BACK) from = now = world();
@@ -58,13 +58,13 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     Reservoir path = r.own;
     SampleHit hit = r.ownHit;
     r.confidence = 0;
-    if (!splats && !inside(r.before)) return shiftOfNothing();
+    if (!splats && !inside(r.before)) return false;
     // Whose confidence counts is not known yet where this frame's path is splatted back: it depends on where it lands.
     if (!splats || way == FORTH) {
         ivec2 past = splats ? pixel : r.before;
         Reservoir old = historyReservoirs(place(past));
         r.confidence = capped(old);
-        if (r.confidence == 0 || (splats && !holdsPath(old))) return shiftOfNothing();
+        if (r.confidence == 0 || (splats && !holdsPath(old))) return false;
         if (way == FORTH) {
             path = old;
             hit = historySamples(place(past));
@@ -77,17 +77,17 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     MappedPath mapped = mapPath(from, to, now, uv(), levelMapping(), wanted, centre, path, hit);
     // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not.
     if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;
-    if (!mapped.isThere) return shiftOfNothing();
+    if (!mapped.isThere) return false;
     PrimaryHit first = mapped.hit.hit;
     hit.rc = mapped.hit.rc;
     r.landing = pixel;
     float jacobian = mapped.jacobian;
     if (splats) {
         vec3 seen = cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction;
-        if (!project(to, pixel, frameSize(), first, seen, r.landing)) return shiftOfNothing();
+        if (!project(to, pixel, frameSize(), first, seen, r.landing)) return false;
         if (way == BACK) {
             r.confidence = capped(historyReservoirs(place(r.landing)));
-            if (r.confidence == 0) return shiftOfNothing();
+            if (r.confidence == 0) return false;
         }
         jacobian *= jacobianRatio(filmTerm(to, r.landing, frameSize(), first), filmTerm(from, pixel, frameSize(), start));
     } else if (way == BACK) {
@@ -96,7 +96,8 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     } else {
         first = centre;
     }
-    return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
+    task = ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
+    return true;
 }
 
 // Last frame's path has arrived, or not.

@@ -133,8 +133,8 @@ void comeBack(Reuse r, inout ShiftCheck check, Shift returned) {
     check.errorMis = max(there, here);
 }
 
-ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
-    if (!r.paired) return shiftOfNothing();
+bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way, out ShiftTask task) {
+    if (!r.paired) return false;
     if (way == FORTH) {
         bool own = trip == OF_PIXEL;
         r.path = own ? pathsReservoirs(place(pixel)) : partnerReservoir(r.partner);
@@ -142,7 +142,7 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
         r.confidence = own ? confidence(partnerReservoir(r.partner)) : confidence(pathsReservoirs(place(pixel)));
         r.jacobian = 0;
     }
-    if (!holdsPath(r.path) || (way == BACK && r.jacobian == 0)) return shiftOfNothing();
+    if (!holdsPath(r.path) || (way == BACK && r.jacobian == 0)) return false;
     Reservoir path = r.path;
     SampleHit hit = r.hit;
     if (way == BACK) {
@@ -154,9 +154,9 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
     PrimaryHit centre;
     if (here) centre = hits(place(to));
     else centre = partnerCentre(to);
-    ShiftTask task = shiftTo(to, centre, path, hit);
+    task = shiftTo(to, centre, path, hit);
     task.refresh = r.refresh;
-    return task;
+    return true;
 }
 
 void reuseResult(inout Reuse r, ivec2 pixel, uint trip, uint way, Shift result) {
