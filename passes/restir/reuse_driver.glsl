@@ -7,8 +7,8 @@
 //   uint reusePartners();                                    of a pixel
 //   World reuseWorld(World now, uint partner, uint way);     that the shift leads to
 //   void reuseStart(inout Reuse r, World now, ivec2 pixel);  before the first shift
-//   bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way, out ShiftTask task);  where a path comes from and goes to; false: nowhere
-//   void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result);               what has become of it; jacobian 0: nothing
+//   ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way);    where a path comes from and goes to; shiftOfNothing(): nowhere
+//   void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result);  what has become of it; jacobian 0: there is no such path
 //   void reuseEnd(Reuse r, ivec2 pixel);                     after the last shift
 // where `now` is the pass's input `world`. FORTH, BACK and what shifts are made of are in restir/shift.glsl. The pass has an input `rules`, those that the
 // paths were made by.
@@ -25,9 +25,9 @@ World pathWorld(World now, uint item) { return reuseWorld(now, item / WAYS, item
 void pathStart(inout Path p, World now, ivec2 pixel) { reuseStart(p.reuse, now, pixel); }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
-    ShiftTask task;
-    p.shift.jacobian = 0.0;
-    return isShift(item) && reuseTask(p.reuse, w, pixel, item / WAYS, item % WAYS, task) && shiftStart(p.shift, w, task, frameSize());
+    ShiftTask task = shiftOfNothing();
+    if (isShift(item)) task = reuseTask(p.reuse, w, pixel, item / WAYS, item % WAYS);
+    return shiftStart(p.shift, w, task, frameSize());
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }

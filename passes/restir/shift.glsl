@@ -49,9 +49,14 @@ struct ShiftTask {
     PrimaryHit first;  // a camera hit of that pixel, in the World the path goes to
     bool carried;      // `first` is the path's own first hit, taken there, and has to be seen from its place on film and lens; otherwise it is a hit that
                        // is known anyway, which saves a ray where it is of the same camera sample
-    float jacobian;    // of what has happened to the path already
+    float jacobian;    // of what has happened to the path already; 0: there is nothing to shift
     bool refresh;      // walk anew what follows x_k
 };
+
+ShiftTask shiftOfNothing() {
+    PrimaryHit nowhere = PrimaryHit(NONE, NONE, vec2(0.0), vec2(0.0), vec2(0.0));
+    return ShiftTask(emptyReservoir(0.0), SampleHit(nowhere, 0.0, vec2(0.0), TrianglePlace(vec2(0.0), vec2(0.0)), 0u), ivec2(0), nowhere, false, 0.0, false);
+}
 
 /// The shift of a path to pixel `to`, whose camera hit `centre` is known.
 ShiftTask shiftTo(ivec2 to, PrimaryHit centre, Reservoir path, SampleHit base) { return ShiftTask(path, base, to, centre, false, 1.0, false); }

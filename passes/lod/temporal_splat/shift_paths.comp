@@ -50,7 +50,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.refresh = walksSuffix(w, worldPrev());
 }
 
-bool reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way, out ShiftTask task) {
+ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
     bool splats = partner == SPLATTED;
     World from, now = to;
     if (way == BACK) from = now = world();
@@ -58,13 +58,13 @@ bool reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way, out
     Reservoir path = r.own;
     SampleHit hit = r.ownHit;
     r.confidence = 0;
-    if (!splats && !inside(r.before)) return false;
+    if (!splats && !inside(r.before)) return shiftOfNothing();
     // Whose confidence counts is not known yet where this frame's path is splatted back: it depends on where it lands.
     if (!splats || way == FORTH) {
         ivec2 past = splats ? pixel : r.before;
         Reservoir old = historyReservoirs(place(past));
         r.confidence = capped(old);
-        if (r.confidence == 0 || (splats && !holdsPath(old))) return false;
+        if (r.confidence == 0 || (splats && !holdsPath(old))) return shiftOfNothing();
         if (way == FORTH) {
             path = old;
             hit = historySamples(place(past));
@@ -77,17 +77,17 @@ bool reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way, out
     MappedPath mapped = mapPath(from, to, now, uv(), levelMapping(), wanted, centre, path, hit);
     // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not.
     if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;
-    if (!mapped.isThere) return false;
+    if (!mapped.isThere) return shiftOfNothing();
     PrimaryHit first = mapped.hit.hit;
     hit.rc = mapped.hit.rc;
     r.landing = pixel;
     float jacobian = mapped.jacobian;
     if (splats) {
         vec3 seen = cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction;
-        if (!project(to, pixel, frameSize(), first, seen, r.landing)) return false;
+        if (!project(to, pixel, frameSize(), first, seen, r.landing)) return shiftOfNothing();
         if (way == BACK) {
             r.confidence = capped(historyReservoirs(place(r.landing)));
-            if (r.confidence == 0) return false;
+            if (r.confidence == 0) return shiftOfNothing();
         }
         jacobian *= jacobianRatio(filmTerm(to, r.landing, frameSize(), first), filmTerm(from, pixel, frameSize(), start));
     } else if (way == BACK) {
@@ -96,8 +96,7 @@ bool reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way, out
     } else {
         first = centre;
     }
-    task = ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
-    return true;
+    return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
 }
 
 // Last frame's path has arrived, or not.

@@ -133,8 +133,8 @@ void comeBack(Reuse r, inout ShiftCheck check, Shift returned) {
     check.errorMis = max(there, here);
 }
 
-bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way, out ShiftTask task) {
-    if (!r.paired) return false;
+ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
+    if (!r.paired) return shiftOfNothing();
     if (way == FORTH) {
         bool own = trip == OF_PIXEL;
         r.path = own ? pathsReservoirs(place(pixel)) : partnerReservoir(r.partner);
@@ -142,7 +142,7 @@ bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way, out Shi
         r.confidence = own ? confidence(partnerReservoir(r.partner)) : confidence(pathsReservoirs(place(pixel)));
         r.jacobian = 0;
     }
-    if (!holdsPath(r.path) || (way == BACK && r.jacobian == 0)) return false;
+    if (!holdsPath(r.path) || (way == BACK && r.jacobian == 0)) return shiftOfNothing();
     Reservoir path = r.path;
     SampleHit hit = r.hit;
     if (way == BACK) {
@@ -154,9 +154,9 @@ bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way, out Shi
     PrimaryHit centre;
     if (here) centre = hits(place(to));
     else centre = partnerCentre(to);
-    task = shiftTo(to, centre, path, hit);
+    ShiftTask task = shiftTo(to, centre, path, hit);
     task.refresh = r.refresh;
-    return true;
+    return task;
 }
 
 void reuseResult(inout Reuse r, ivec2 pixel, uint trip, uint way, Shift result) {

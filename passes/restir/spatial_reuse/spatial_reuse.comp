@@ -73,14 +73,14 @@ void offer(inout Reuse r, ivec2 pixel, uint number, Reservoir path, SampleHit hi
     r.keptHit = hit;
 }
 
-bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way, out ShiftTask task) {
+ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
     ivec2 to = r.neighbour;
     Reservoir path = r.own;
     SampleHit hit = r.ownHit;
     if (way == FORTH) {
         r.neighbour = neighbourOf(w, pixel, r.view, partner);
         r.confidence = 0;
-        if (r.neighbour == pixel) return false;
+        if (r.neighbour == pixel) return shiftOfNothing();
         to = pixel;
         path = inputReservoir(r.neighbour);
         hit = inputSample(r.neighbour);
@@ -88,9 +88,8 @@ bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way, out 
         r.pHat = target(path);
         r.W = path.W;
     }
-    if (r.confidence == 0) return false;
-    task = shiftTo(to, hits(place(to)), path, hit);
-    return true;
+    if (r.confidence == 0) return shiftOfNothing();
+    return shiftTo(to, hits(place(to)), path, hit);
 }
 
 void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result) {

@@ -44,12 +44,13 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.refresh = walksSuffix(w, last);
 }
 
-bool reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way, out ShiftTask task) {
-    if (r.confidence == 0) return false;
+ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
+    if (r.confidence == 0) return shiftOfNothing();
+    ShiftTask task;
     if (way == FORTH) task = shiftTo(pixel, hits(place(pixel)), r.past, r.pastHit);
     else task = shiftTo(r.before, hitsPrev(place(r.before)), r.own, r.ownHit);
     task.refresh = r.refresh;
-    return true;
+    return task;
 }
 
 void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result) {
