@@ -63,7 +63,7 @@ private:
         node.where = where;
         attempt([&] {
             node.plugin = &libraries_.find(type, typeWhere);
-            node.code = libraries_.codeOf(type, typeWhere);
+            node.code = libraries_.codeOf(type);
             node.pass.reset(node.plugin->create());
             node.pass->shader = node.plugin->shader;
             node.inputs.resize(node.pass->ports.size());

@@ -93,8 +93,10 @@ std::vector<std::string> PluginLibraries::knownFolders() const {
     return {names.begin(), names.end()};
 }
 
-const PluginLibraries::Library& PluginLibraries::library(const std::string& folder, const Path& file, const Where& where) {
-    if (const auto known = libraries_.find(folder); known != libraries_.end()) return known->second;
+const PluginLibraries::Library* PluginLibraries::library(const std::string& folder, const Where& where) {
+    if (const auto known = libraries_.find(folder); known != libraries_.end()) return &known->second;
+    const Path file = fileOf(folder, where);
+    if (file.empty()) return nullptr;
 
     const Hash code = Hash().add(readBytes(file));
     // A missing symbol is an error now, with its name, and no library sees the symbols of another.
@@ -115,18 +117,18 @@ const PluginLibraries::Library& PluginLibraries::library(const std::string& fold
         plugins.push_back(plugin);
     }
     std::ranges::reverse(plugins);  // each pass put itself before the others
-    return libraries_.emplace(folder, Library{std::move(plugins), code}).first->second;
+    return &libraries_.emplace(folder, Library{std::move(plugins), code}).first->second;
 }
 
 const Plugin& PluginLibraries::find(const std::string& type, const Where& where) {
     if (const auto builtIn = builtIns_.find(type); builtIn != builtIns_.end()) return builtIn->second;
     const std::size_t dot = type.find('.');
     const std::string folder = type.substr(0, dot);
-    const Path file = fileOf(folder, where);
-    if (file.empty() && folder.find('/') != folder.npos) throw Error(where, "no pass type \"" + type + "\"", "write the pass without its family");
-    if (file.empty()) throw Error(where, "no pass type \"" + type + "\"", didYouMean(folder, knownFolders()));
+    const Library* loaded = library(folder, where);
+    if (!loaded && folder.find('/') != folder.npos) throw Error(where, "no pass type \"" + type + "\"", "write the pass without its family");
+    if (!loaded) throw Error(where, "no pass type \"" + type + "\"", didYouMean(folder, knownFolders()));
 
-    const std::vector<const Plugin*>& plugins = library(folder, file, where).plugins;
+    const std::vector<const Plugin*>& plugins = loaded->plugins;
     std::vector<std::string> names;
     for (const Plugin* plugin : plugins) names.push_back(folder + "." + plugin->type);
     if (dot == type.npos) {
@@ -139,10 +141,9 @@ const Plugin& PluginLibraries::find(const std::string& type, const Where& where)
     return *plugins[static_cast<std::size_t>(found - names.begin())];
 }
 
-Hash PluginLibraries::codeOf(const std::string& type, const Where& where) {
+Hash PluginLibraries::codeOf(const std::string& type) const {
     if (builtIns_.contains(type)) return Hash().add(frameworkSources());
-    const std::string folder = type.substr(0, type.find('.'));
-    return library(folder, fileOf(folder, where), where).code;
+    return libraries_.at(type.substr(0, type.find('.'))).code;
 }
 
 std::vector<PluginLibraries::Entry> PluginLibraries::all(Problems& problems) {
@@ -153,7 +154,7 @@ std::vector<PluginLibraries::Entry> PluginLibraries::all(Problems& problems) {
             continue;
         }
         try {
-            const std::vector<const Plugin*>& plugins = library(name, fileOf(name, {}), {}).plugins;
+            const std::vector<const Plugin*>& plugins = library(name, {})->plugins;
             for (const Plugin* plugin : plugins) entries.push_back({plugins.size() == 1 ? name : name + "." + plugin->type, plugin});
         } catch (const Error& error) {
             problems.add(error);

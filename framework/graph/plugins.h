@@ -25,8 +25,9 @@ public:
     /// The plugin of a type, loading its library. Error at `where`: no such folder or struct (with a guess), not loadable, or built
     /// against another framework.
     const Plugin& find(const std::string& type, const Where& where = {});
-    /// Names what a type's code was built to: the bytes of its library, as they were when it was loaded; of a built-in pass the framework's sources.
-    Hash codeOf(const std::string& type, const Where& where = {});
+    /// Names what the code of a type that was found is built to: the bytes of its library, as they were when it was loaded; of a built-in pass the
+    /// framework's sources.
+    Hash codeOf(const std::string& type) const;
 
     struct Entry {
         std::string type;
@@ -42,8 +43,8 @@ private:
         std::vector<const Plugin*> plugins;  ///< in order of declaration
         Hash code;
     };
-    /// The library of one folder, loaded when first asked for.
-    const Library& library(const std::string& folder, const Path& file, const Where& where);
+    /// The library of one folder, loaded when first asked for; null: there is none.
+    const Library* library(const std::string& folder, const Where& where);
     Path fileOf(const std::string& folder, const Where& where) const;  ///< empty: there is none; Error at `where`: there are two
     std::vector<std::string> knownFolders() const;                     ///< sorted, with the built-in types
 

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace lodestir {
 namespace {
@@ -197,10 +196,15 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
     Hash content;
     content.addValue(sceneHash).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
     if (finest) content.add("finest");
+    std::unique_ptr<Runner> runner;  // of both halves
     const auto half = [&](std::uint32_t index) {
         const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
         if (isFile(file)) return readExr(file);
-        ImageData image = renderHalf(staged, samplesName, sceneIndex, frame, index);
+        if (!runner) {
+            setParameter(staged.graph, samplesName, Json(samplesAFrame()));
+            runner = makeRunner(staged, sceneIndex);
+        }
+        ImageData image = renderHalf(staged, *runner, samplesName, frame, index);
         writeExr(file, image, {.attributes = {{"lodestir", staged.graph.resolved().dump(-1)}}});
         return image;
     };
@@ -210,25 +214,25 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
 
 Seen Stage::see(std::size_t index) { return seeFrames(renderer_, study_, study_.scenes[index], scene(index)); }
 
-/// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
-ImageData Stage::renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half) {
-    const int total = study_.referenceSamples / 2;
+int Stage::samplesAFrame() const {
     const auto pixels = std::uint64_t(study_.size.x) * study_.size.y;
-    const int most = int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024));
-    std::vector<double> sum(pixels * 3);
+    return std::min(study_.referenceSamples / 2, int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024)));
+}
+
+/// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
+ImageData Stage::renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half) {
+    const int total = study_.referenceSamples / 2;
+    std::vector<double> sum(std::size_t(study_.size.x) * study_.size.y * 3);
     std::uint32_t seed = firstReferenceSeed + half * seedsPerHalf;
-    setParameter(staged.graph, samplesName, Json(std::min(most, total)));
-    staged.graph.description.seed = seed;
-    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
     log::Progress progress(fmt::format("reference of frame {}, half {}", frame, half == 0 ? "A" : "B"), std::size_t(total));
     for (int done = 0; done < total; ++seed) {
-        const int samples = std::min(most, total - done);
+        const int samples = std::min(samplesAFrame(), total - done);
         setParameter(staged.graph, samplesName, Json(samples));
         staged.graph.description.seed = seed;
-        runner->reset();
-        runner->setFrame(std::uint32_t(frame));
-        runner->run();
-        const ImageData image = imageOf(*runner, staged);
+        runner.reset();
+        runner.setFrame(std::uint32_t(frame));
+        runner.run();
+        const ImageData image = imageOf(runner, staged);
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]) * samples / total;
         done += samples;
         progress.advance(std::size_t(samples));

@@ -61,7 +61,8 @@ public:
     Seen see(std::size_t scene);
 
 private:
-    ImageData renderHalf(StagedGraph& staged, const std::string& samplesName, std::size_t scene, int frame, std::uint32_t half);
+    int samplesAFrame() const;  ///< of a reference, at most
+    ImageData renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half);
 
     const Study& study_;
     Renderer renderer_;

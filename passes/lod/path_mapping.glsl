@@ -37,7 +37,7 @@ const uint MAP_CONNECTED = 4u;
 
 struct MappedPath {
     Reservoir path;
-    SampleHit hit;       // its first hit is `first`'s
+    SampleHit hit;
     bool centreIsThere;  // whether the centre's point is found; true where it isn't asked
     bool isThere;        // whether the whole path is
     float jacobian;      // of all barycentric areas
