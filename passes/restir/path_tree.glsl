@@ -4,8 +4,11 @@
 //
 // Lin et al. 2022, Generalized Resampled Importance Sampling, section 7.1. Paths of one tree differ in length, technique or lobes: their
 // domains are disjoint, so each enters with weight 1. Roulette is no dimension of the path: it enters the weight, not F (Lin et al. 2026,
-// ReSTIR PT Enhanced, section 6.2.4). x_1 chooses its light sample from several by resampling, whose random density goes into the weight
+// ReSTIR PT Enhanced, section 6.2.4). Vertices choose their light sample from several by resampling, whose random density goes into the weight
 // as well (section 6.1).
+//
+// The includer defines, before it includes this file,
+//   NumberedLight treeLight(World w, uvec2 seed, uint vertex, uint candidate, uint candidates);  one of so many that the vertex may choose
 #include "base/math.glsl"
 #include "restir/path_vertex.glsl"
 #include "restir/ris.glsl"
@@ -21,6 +24,7 @@ struct TreeLimits {
 
 struct PathTree {
     uvec2 seed;
+    ConnectionCriteria criteria;
     uint vertex;        // j of the last vertex x_j that was reached; 0: the lens
     Ray ray;            // to be traced next
     bool toLight;       // it asks how much arrives of the light of the path on offer
@@ -51,6 +55,7 @@ struct PathTree {
     SampleHit first;    // x_1 of this tree
     Reservoir offered;  // a path, W missing
     TrianglePlace offeredRc;
+    uint offeredLight;  // SampleHit.light
     float offeredWeight;
 
     Ris ris;            // over all trees of the pixel
@@ -79,6 +84,7 @@ void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
     p.lobe = 0u;
     p.lobePdf = 0.0;
     p.pdf = p.cosine = 0.0;
+    p.criteria = ConnectionCriteria(CRITERIA_DISTANCE, 1.0, 0.0);
     p.k = 0u;
     p.lobeBefore = p.lobeAt = 0u;
     p.density = 1.0;
@@ -93,19 +99,20 @@ void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
 
 /// Whether x_j may be x_k: the first vertex whose pair with x_{j-1} may be connected. `at` and `pdf`: roughness there and density of the direction that
 /// leaves it. `s`: x_j, where it has a surface.
-bool maybeConnected(PathTree p, ShiftRules rules, uint end, float at, float pdf, Surface s, float distance) {
+bool maybeConnected(PathTree p, uint end, float at, float pdf, Surface s, float distance) {
     if (p.k > 0u || p.vertex < 2u) return false;
-    return connectable(criteriaOf(rules), Pair(end, p.before, at, p.pdf, pdf, p.cosine, abs(dot(s.normal, s.view)), distance));
+    return connectable(p.criteria, Pair(end, p.before, at, p.pdf, pdf, p.cosine, abs(dot(s.normal, s.view)), distance));
 }
 
-/// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `warp`: what resampling among
+/// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `light`: number of its light. `warp`: what resampling among
 /// light candidates adds to its weight.
-void offer(inout PathTree p, Reservoir path, PathShape shape, TrianglePlace rc, vec3 F, float density, float warp) {
+void offer(inout PathTree p, Reservoir path, PathShape shape, TrianglePlace rc, vec3 F, float density, uint light, float warp) {
     path.seed = p.seed;
     path.shape = packShape(shape, 1.0);
     path.F = F * density;
     p.offered = path;
     p.offeredRc = rc;
+    p.offeredLight = light;
     p.offeredWeight = finiteWeight(luminance(F) * warp / p.survival);
 }
 
@@ -122,6 +129,7 @@ void takeOffer(inout PathTree p, uvec2 decisions) {
     p.kept = p.offered;
     p.keptHit = p.first;
     p.keptHit.rc = p.offeredRc;
+    p.keptHit.light = p.offeredLight;
 }
 
 /// Light that the spine ran into at x_j: an emitter's surface, or the environment (hit.primitive NONE).
@@ -133,7 +141,7 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
     Reservoir path = p.spine;
     float density = p.density;
     TrianglePlace rc = p.rc;
-    bool connects = maybeConnected(p, rules, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance);
+    bool connects = maybeConnected(p, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance);
     if (connects && !environment) {
         throughput = p.connected;
         pdf = p.connectedPdf;
@@ -154,7 +162,7 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
         density = p.lobePdf;
         if (!environment) rc = TrianglePlace(hit.barycentrics, s.uv);
     }
-    offer(p, path, shape, rc, throughput * radiance * share, density, 1.0);
+    offer(p, path, shape, rc, throughput * radiance * share, density, 0u, 1.0);
 }
 
 /// A light sample at x_j (next-event estimation). False: no light.
@@ -162,17 +170,20 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     // Resampled importance sampling of a candidate by what it would send if nothing were in the way.
     uint candidates = lightCandidates(rules, p.vertex);
     LightSample light;
+    uint number = 0u;
     vec3 chosen = vec3(0.0);
     float pdfChosen = 0.0;  // of the BSDF
     Ris ris = risStart();
     for (uint i = 0u; i < candidates; ++i) {
-        LightSample l = lightSampleAt(w, pathLight(w, p.seed, p.vertex, i), s.position);
+        NumberedLight candidate = treeLight(w, p.seed, p.vertex, i, candidates);
+        LightSample l = lightSampleAt(w, candidate.point, s.position);
         if (l.radianceOverPdf == vec3(0.0)) continue;
         float pdf;
         vec3 f = bsdfEval(b, wo, onGrid(l.direction), pdf);
         vec3 sent = f * l.radianceOverPdf * lightShare(rules, p.vertex, l.pdf, pdf);
         if (!risAdd(ris, luminance(sent), random1(p.seed, p.vertex, RANDOM_FREE | i << 8u))) continue;
         light = l;
+        number = candidate.number;
         chosen = sent;
         pdfChosen = pdf;
     }
@@ -188,7 +199,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     TrianglePlace rc = p.rc;
     if (p.k > 0u) {
         path.radiance = p.suffix * chosen;
-    } else if (maybeConnected(p, rules, PAIR_SURFACE, roughness, pdfChosen, s, distance)) {
+    } else if (maybeConnected(p, PAIR_SURFACE, roughness, pdfChosen, s, distance)) {
         shape.k = p.vertex;
         shape.lobeBefore = p.lobe;
         path.rcInstance = s.instance;
@@ -200,7 +211,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         density = p.lobePdf * pdfLight;
         throughput = p.connected;
         rc = TrianglePlace(s.barycentrics, s.uv);
-    } else if (lightConnectable(rules, p.vertex, s, roughness, pdfChosen, light)) {
+    } else if (lightConnectable(rules, p.criteria, s, roughness, pdfChosen, light)) {
         shape.k = p.vertex + 1u;
         path.rcInstance = w.lights.at[light.point.light].instance;
         path.rcPrimitive = light.delta ? light.point.light : kind == PATH_LIGHT_ENVIRONMENT ? light.point.texel : w.lights.at[light.point.light].primitive;
@@ -208,13 +219,13 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         density = vertexDensity(w, light);
         rc.barycentrics = light.point.uv;
     }
-    offer(p, path, shape, rc, throughput * chosen, density, warp);
+    offer(p, path, shape, rc, throughput * chosen, density, number, warp);
     p.ray = shadowRay(w, s, light);
     return true;
 }
 
 /// The spine's next direction. False: it ends here.
-bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Surface s, Bsdf b, vec3 wo, float distance) {
+bool growSpine(inout PathTree p, World w, TreeLimits limits, Surface s, Bsdf b, vec3 wo, float distance) {
     if (limits.roulette) {
         float q = min(luminance(p.throughput), 1.0);
         if (random1(p.seed, p.vertex, RANDOM_ROULETTE) >= q) return false;
@@ -226,7 +237,7 @@ bool growSpine(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, S
     float roughness = lobeRoughness(b, next.lobe);
     if (p.k > 0u) {
         p.suffix *= next.lobeWeight;
-    } else if (maybeConnected(p, rules, PAIR_SURFACE, roughness, next.pdf, s, distance)) {
+    } else if (maybeConnected(p, PAIR_SURFACE, roughness, next.pdf, s, distance)) {
         p.k = p.vertex;
         p.lobeBefore = p.lobe;
         p.lobeAt = next.lobe;
@@ -278,7 +289,7 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
         vec3 left = segmentTransmittance(w, s, distance);
         p.throughput *= left;
         if (p.k > 0u) p.suffix *= left;
-        if (maybeConnected(p, rules, PAIR_EMITTER, 0.0, 0.0, s, distance)) {
+        if (maybeConnected(p, PAIR_REACHED, 0.0, 0.0, s, distance)) {
             BsdfValue value = bsdfValue(p.bsdf, p.lobe, p.wo, direction);
             p.connected = p.incoming * value.one / p.lobePdf * left;
             p.connectedPdf = value.pdf;
@@ -288,7 +299,10 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
     }
     if (j == 1u) {
         p.first.hit = primaryHit(hit, p.first.hit.film, p.first.hit.lens);
-        if (!escaped) p.first.uv = s.uv;
+        if (!escaped) {
+            p.first.uv = s.uv;
+            p.criteria = criteriaOf(rules, p.seed, distance, abs(dot(s.normal, s.view)));
+        }
     }
     if (radiance != vec3(0.0) && j >= limits.segmentsMin) {
         offerEmission(p, rules, hit, s, direction, distance, radiance, pdfLight);
@@ -297,7 +311,7 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
     if (escaped || j == limits.segmentsMax) return false;
     Bsdf b = bsdfAt(w, s);
     if (j + 1u >= limits.segmentsMin && !bsdfAllDelta(b, -direction)) p.toLight = offerLight(p, w, rules, s, b, -direction, distance);
-    p.ends = !growSpine(p, w, rules, limits, s, b, -direction, distance);
+    p.ends = !growSpine(p, w, limits, s, b, -direction, distance);
     if (p.toLight) return true;
     p.ray = p.onward;
     return !p.ends;

@@ -9,6 +9,7 @@
 #include "bsdf/material.glsl"
 #include "restir/criteria.glsl"
 #include "restir/jacobian.glsl"
+#include "restir/light_number.glsl"
 #include "restir/rules.h"
 #include "world/primary_hit.h"
 
@@ -33,13 +34,8 @@ BsdfDirection pathDirection(Bsdf b, vec3 wo, uvec2 seed, uint vertex) {
     return d;
 }
 
-/// A light point of the path by its own numbers. Candidate 0 is the only one but at x_1 (ShiftRules.lightCandidates).
-LightPoint pathLight(World w, uvec2 seed, uint vertex, uint candidate) {
-    uint tag = candidate << 8u;
-    return chooseLight(w, randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE | tag), random3(seed, vertex, RANDOM_LIGHT_POINT | tag));
-}
-
-uint lightCandidates(ShiftRules rules, uint vertex) { return vertex == 1u ? rules.lightCandidates : 1u; }
+/// The further down the path, the less a good choice is worth (Lin et al. 2026, ReSTIR PT Enhanced, section 7: 32 / B^2).
+uint lightCandidates(ShiftRules rules, uint vertex) { return max(rules.lightCandidates / (vertex * vertex), 1u); }
 
 /// omega_t of a light that the BSDF at `vertex` found with total density pdf (0: by a delta lobe, or it is seen by the camera), and light
 /// sampling with pdfLight (0: never, it is an unlit surface).
@@ -52,7 +48,13 @@ float lightShare(ShiftRules rules, uint vertex, float pdfLight, float pdf) {
     return sampledShare(rules.technique, float(lightCandidates(rules, vertex)) * pdfLight, pdf);
 }
 
-ConnectionCriteria criteriaOf(ShiftRules rules) { return ConnectionCriteria(rules.roughness, rules.distance); }
+/// What the path of `seed` asks of connections where its first hit is at `distance` from the lens, under `cosine` with the triangle's normal. Those of
+/// the pixel and frame that the path is in: a shift asks anew.
+ConnectionCriteria criteriaOf(ShiftRules rules, uvec2 seed, float distance, float cosine) {
+    if (rules.criteria == CRITERIA_DISTANCE) return ConnectionCriteria(rules.criteria, rules.roughness, rules.distance);
+    float least = rules.footprint * pathThreshold(seed, rules.spread);
+    return ConnectionCriteria(rules.criteria, rules.roughness, least * primaryFootprint(distance, cosine));
+}
 
 /// Roughness of a vertex that scatters towards a light sample with all its lobes: that of the roughest. 0 where all are delta lobes.
 float roughestLobe(Bsdf b, vec3 wo) {
@@ -62,11 +64,11 @@ float roughestLobe(Bsdf b, vec3 wo) {
     return max(base, chance.w > 0.0 ? lobeRoughness(b, LOBE_COAT) : 0.0);
 }
 
-/// Whether the light behind `vertex`, found by light sampling, may be x_k itself: always where the numbers alone don't tell the light
+/// Whether the light behind a vertex, found by light sampling, may be x_k itself: always where that is forced, so that lights are never replayed
 /// (Lin et al. 2026, ReSTIR PT Enhanced, section 6.2.3). `roughness` and `pdf` (of its direction): of all lobes at the vertex.
-bool lightConnectable(ShiftRules rules, uint vertex, Surface s, float roughness, float pdf, LightSample l) {
-    if (rules.forcedNee != 0u || lightCandidates(rules, vertex) > 1u) return true;
-    return connectable(criteriaOf(rules), Pair(PAIR_LIGHT, roughness, 0.0, pdf, 0.0, abs(dot(s.normal, l.direction)), l.cosine, l.distance));
+bool lightConnectable(ShiftRules rules, ConnectionCriteria criteria, Surface s, float roughness, float pdf, LightSample l) {
+    if (rules.forcedNee != 0u) return true;
+    return connectable(criteria, Pair(PAIR_LIGHT, roughness, 0.0, pdf, 0.0, abs(dot(s.normal, l.direction)), l.cosine, l.distance));
 }
 
 /// Do two camera rays of one pixel coincide? The lens sample counts only where there is a lens.

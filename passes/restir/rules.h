@@ -8,10 +8,13 @@
 LODESTIR_SHARED_BEGIN
 
 struct ShiftRules {
-    float roughness;       // least perceptual roughness of the lobes on both sides of a connection
+    uint criteria;         // CRITERIA_* (restir/criteria.glsl)
+    float roughness;       // least perceptual roughness of the lobes on both sides of a connection, or before it
     float distance;        // least length of a connection, scene units
+    float footprint;       // least footprint of a connection's directions, relative to primaryFootprint()
+    float spread;          // relative deviation of that from path to path
     uint forcedNee;        // 1: a light found by light sampling is connected whatever roughness and distance say
-    uint lightCandidates;  // lights that light sampling chooses from at x_1; 1 at all other vertices
+    uint lightCandidates;  // lights that light sampling chooses from at x_1; at x_j a share of 1 / j^2, at least 1
     uint technique;        // TECHNIQUE_* (basic/light_technique.glsl)
 };
 

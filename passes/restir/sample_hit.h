@@ -19,7 +19,7 @@ struct SampleHit {
     float time;        // within the exposure, [0,1)
     vec2 uv;           // of x1, like TrianglePlace.uv
     TrianglePlace rc;  // of the reconnection vertex x_k
-    uint pad;
+    uint light;        // number that chose the light (lightPoint), where light sampling found it
 };
 
 LODESTIR_SHARED_END

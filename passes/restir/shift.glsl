@@ -25,6 +25,7 @@ struct Shift {
     SampleHit hit;       // of the shifted path
     float jacobian;      // |dT/dx| in the mixed measure; 0: failed
     PathShape shape;
+    ConnectionCriteria criteria;
     bool refresh;        // walk anew what follows x_k
     bool known;          // y_1 is in `hit` already: no ray is needed
     bool carried;        // y_1 is x_1 where it is now, and keeps the texture coordinate it was stored with, so that the way back finds it
@@ -82,6 +83,7 @@ bool shiftStart(inout Shift t, World w, ShiftTask task, uvec2 size) {
     t.resumes = false;
     t.throughput = t.prefix = vec3(1.0);
     t.before = t.pdf = t.cosine = 0.0;
+    t.criteria = ConnectionCriteria(CRITERIA_DISTANCE, 1.0, 0.0);
     t.ray = cameraRay(w, filmOf(task.to, t.hit.hit.film, size), t.hit.hit.lens);
     t.from = t.ray.origin;
     if (task.carried && task.first.primitive != NONE) {
@@ -117,10 +119,10 @@ void shiftFail(inout Shift t) {
 
 /// Where it is decided whether the shift can be undone: pairs before k must not be connectable, the pair at k must be. `at` and `pdf`: roughness at y_j
 /// and density of the direction that leaves it. `s`: y_j, where it has a surface.
-bool agreesOnConnection(Shift t, ShiftRules rules, bool target, uint end, float at, float pdf, Surface s, float distance) {
+bool agreesOnConnection(Shift t, bool target, uint end, float at, float pdf, Surface s, float distance) {
     bool suffix = t.shape.k > 0u && t.vertex > t.shape.k;
     if (t.vertex < 2u || suffix) return true;
-    return connectable(criteriaOf(rules), Pair(end, t.before, at, t.pdf, pdf, t.cosine, abs(dot(s.normal, s.view)), distance)) == target;
+    return connectable(t.criteria, Pair(end, t.before, at, t.pdf, pdf, t.cosine, abs(dot(s.normal, s.view)), distance)) == target;
 }
 
 /// F of a replayed path, or radiance and F of a suffix walked again, that ends with `radiance`. The share of a light that the BSDF of x_k found
@@ -140,7 +142,7 @@ void reachLight(inout Shift t, vec3 radiance, float share, float pdfLight) {
 void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec3 direction, float distance, bool target) {
     bool environment = hit.primitive == NONE;
     bool alike = !t.shape.nee && t.vertex == t.shape.d && t.shape.light == (environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE);
-    if (!alike || !agreesOnConnection(t, rules, target, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance)) {
+    if (!alike || !agreesOnConnection(t, target, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance)) {
         shiftFail(t);
         return;
     }
@@ -200,7 +202,7 @@ bool depart(Shift t, World w, Surface s, Bsdf b, vec3 wo, bool target, out Depar
         d.lobe = d.next.lobe;
         d.way = d.next.wi;
     } else if (d.towards == TOWARDS_LIGHT) {
-        d.light = lightSampleAt(w, kind == RC_LIGHT ? storedLight(w, t) : pathLight(w, t.path.seed, j, 0u), s.position);
+        d.light = lightSampleAt(w, kind == RC_LIGHT ? storedLight(w, t) : lightPoint(w, t.hit.light), s.position);
         d.lobe = LOBE_ALL;
         d.way = onGrid(d.light.direction);
     } else if (d.towards == TOWARDS_TARGET) {
@@ -254,7 +256,7 @@ bool connect(inout Shift t, World w, Surface s, Departure d, BsdfValue value, fl
 void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, BsdfValue value, float roughness, float share) {
     bool stored = reconnectionKind(t.shape) == RC_LIGHT;
     if (t.shape.k == 0u || stored) {
-        if (lightConnectable(rules, t.vertex, s, roughness, value.pdf, d.light) != stored) shiftFail(t);
+        if (lightConnectable(rules, t.criteria, s, roughness, value.pdf, d.light) != stored) shiftFail(t);
     }
     reachLight(t, value.all * d.light.radianceOverPdf * (stored ? vertexDensity(w, d.light) : 1.0), share, 0.0);
     if (stored) {
@@ -301,6 +303,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         distance = length(s.position - t.from);
         t.throughput *= segmentTransmittance(w, s, distance);
         if (j == 1u && !t.carried) t.hit.uv = s.uv;
+        if (j == 1u) t.criteria = criteriaOf(rules, t.path.seed, distance, abs(dot(s.normal, s.view)));
     }
     if (hit.primitive == NONE || j == t.shape.d) {
         meetLight(t, w, rules, hit, s, direction, distance, target);
@@ -315,7 +318,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     }
     float roughness = d.lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, d.lobe);
     BsdfValue value = bsdfValue(b, d.lobe, wo, d.way);
-    if (!agreesOnConnection(t, rules, target, PAIR_SURFACE, roughness, value.pdf, s, distance)) {
+    if (!agreesOnConnection(t, target, PAIR_SURFACE, roughness, value.pdf, s, distance)) {
         shiftFail(t);
         return false;
     }

@@ -9,10 +9,17 @@
 namespace lodestir::test {
 namespace {
 
-/// Reuse as graphs/restir_pt.json has it; "pixels" shifts fresh paths between pixels, "frames" resampled ones between frames.
-OrderedJson tripsGraph() {
+/// Reuse as graphs/restir_pt.json has it; "pixels" shifts fresh paths between pixels, "frames" resampled ones between frames. `enhanced`: connections by
+/// footprint, lights of tiles.
+OrderedJson tripsGraph(bool enhanced) {
+    OrderedJson initial = initialNode({{"bounces", 4}});
+    if (enhanced) {
+        initial["set"].update(OrderedJson{{"criteria", "footprint"}, {"lightCandidates", 32}});
+        initial["in"] = {{"tiles", "tiles"}};
+    }
     return {{"hits", hitsNode()},
-            {"initial", initialNode({{"bounces", 4}})},
+            {"tiles", {{"type", "light_tiles"}}},
+            {"initial", initial},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
             {"spatial", node("spatial_reuse", pathsOf("temporal"), {{"radius", 10}})},
             {"pixels", node("shift_check", pathsOf("initial"), {{"radius", 10}})},
@@ -62,11 +69,12 @@ void expectSound(const std::string& name, const RoundTrips& trips, double halfWi
 struct Room {
     const char* scene;
     double halfWidth;  ///< of the interval of energies between pixels: lamps that few pixels see make it wide
+    bool enhanced = false;
 };
 class Shifts : public testing::TestWithParam<Room> {};
 
 TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
-    ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = tripsGraph(), .checks = {"pixels", "frames"}});
+    ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = tripsGraph(GetParam().enhanced), .checks = {"pixels", "frames"}});
     RoundTrips pixels, frames, walked;
     for (int frame = 0; frame < 40; ++frame) {
         // What follows x_k is walked anew in the second half, whether or not anything moves.
@@ -84,8 +92,9 @@ INSTANTIATE_TEST_SUITE_P(, Shifts,
                          testing::Values(Room{"ensemble_diffuse", 0.01}, Room{"ensemble_glossy", 0.01}, Room{"ensemble_layers", 0.015},
                                          Room{"ensemble_glass", 0.015}, Room{"ensemble_lights", 0.02}, Room{"ensemble_environment", 0.01},
                                          Room{"ensemble_moving", 0.02}, Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03},
-                                         Room{"ensemble_orthographic", 0.01}),
-                         [](const auto& room) { return std::string(room.param.scene); });
+                                         Room{"ensemble_orthographic", 0.01}, Room{"ensemble_glossy", 0.01, true}, Room{"ensemble_lights", 0.02, true},
+                                         Room{"ensemble_moving", 0.02, true}, Room{"ensemble_lens", 0.03, true}),
+                         [](const auto& room) { return std::string(room.param.scene) + (room.param.enhanced ? "_enhanced" : ""); });
 
 /// Initial sampling, temporal and spatial reuse, each of them shaded: "first", "past" (temporal), "near" (spatial alone), "both".
 OrderedJson stagesGraph(OrderedJson sampling) {
@@ -156,7 +165,8 @@ struct Switch {
 void expectOneImage(const std::string& scene, const std::vector<Switch>& switches) {
     const std::vector<std::pair<std::string, Json>> defaults{
         {"technique", Json("both")}, {"roulette", Json(true)},     {"forcedNee", Json(true)}, {"roughness", Json(0.2)},
-        {"distance", Json(0.1)},     {"lightCandidates", Json(1)}, {"candidates", Json(1)},   {"pixelCentre", Json(false)}};
+        {"distance", Json(0.1)},     {"lightCandidates", Json(1)}, {"candidates", Json(1)},   {"pixelCentre", Json(false)},
+        {"criteria", Json("distance")}};
     ShiftSession session({.scene = sceneFile(scene), .size = {48, 48}, .passes = stagesGraph({{"bounces", 3}}), .images = stages});
     std::vector<double> base;
     for (const Switch& s : switches) {
@@ -180,7 +190,7 @@ TEST(Strategies, OfFindingLight) {
     expectOneImage("ensemble_diffuse", {{"as it is", {}},
                                         {"light sampling", {{"technique", Json("light")}}},
                                         {"BSDF sampling, 8 trees", {{"technique", Json("bsdf")}, {"candidates", Json(8)}}},
-                                        {"8 light candidates", {{"lightCandidates", Json(8)}}},
+                                        {"32 light candidates", {{"lightCandidates", Json(32)}}},
                                         {"without roulette", {{"roulette", Json(false)}}},
                                         {"4 trees", {{"candidates", Json(4)}}},
                                         {"pixel centres", {{"pixelCentre", Json(true)}}, true}});
@@ -194,7 +204,9 @@ TEST(Strategies, OfConnecting) {
                                        {"replay alone", {far, {"forcedNee", Json(false)}}},
                                        {"only diffuse lobes connected", {{"roughness", Json(1.0)}}},
                                        {"connected as early as can be", {{"roughness", Json(0.0)}, {"distance", Json(0.0)}}},
-                                       {"8 light candidates", {{"lightCandidates", Json(8)}}}});
+                                       {"32 light candidates, replayed", {{"lightCandidates", Json(32)}, {"forcedNee", Json(false)}}},
+                                       {"footprints", {{"criteria", Json("footprint")}}},
+                                       {"large footprints", {{"criteria", Json("footprint")}, {"footprint", Json(5.0)}, {"forcedNee", Json(false)}}}});
 }
 
 }  // namespace

@@ -40,6 +40,12 @@ uvec2 streamSeed(uvec2 pixel, uint index, uint run, uint stream) {
 /// Seed of a path. `index` counts the samples of a pixel over the whole run: frame * samples per frame + sample. Pixels below 65536.
 uvec2 pathSeed(uvec2 pixel, uint index, uint run) { return streamSeed(pixel, index, run, 0u); }
 
+/// The pixel that a path of this run was made for.
+uvec2 seedPixel(uvec2 seed, uint run) {
+    uint packed = seed.x ^ streamSeed(uvec2(0u), 0u, run, 0u).x;
+    return uvec2(packed & 0xffffu, packed >> 16);
+}
+
 /// Seed of resampling decisions, independent of all path seeds. `stage` tells the turns of one frame apart.
 uvec2 resamplingSeed(uvec2 pixel, uint frame, uint run, uint stage) { return streamSeed(pixel, frame, run, stage + 1u); }
 

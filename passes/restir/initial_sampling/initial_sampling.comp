@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #include "pass.glsl"
+#include "restir/light_tiles.glsl"
+
+#if HAS_tiles
+NumberedLight treeLight(World w, uvec2 seed, uint vertex, uint candidate, uint candidates) {
+    uint entry = tileEntry(seed, seedPixel(seed, runSeed()), frameIndex(), runSeed(), vertex, candidate, candidates);
+    return NumberedLight(lightOf(tiles(entry)), tileNumber(entry, frameIndex(), runSeed()));
+}
+#else
+NumberedLight treeLight(World w, uvec2 seed, uint vertex, uint candidate, uint candidates) { return ownLight(w, seed, vertex, candidate); }
+#endif
+
 #include "restir/path_tree.glsl"
 
 struct Path {

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
 // The paths of this frame: a tree a pixel, resampled into one reservoir.
 #include <framework/pass/pass.h>
+#include <framework/pass/scene.h>
 #include <passes/basic/light_technique.h>
+#include <passes/restir/light_tiles.h>
 #include <passes/restir/paths.h>
 #include <passes/restir/rules.h>
 
+#include <algorithm>
+
 using namespace lodestir;
+
+enum class Criteria { distance, footprint };
 
 struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres, which save the camera rays where pixelCentre is on", Need::optional};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
+    In<Buffer<TileLight>>  tiles{this, "tiles", "lights drawn beforehand, which vertices choose their candidates from instead of drawing each", Need::optional};
     Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
     Param<int>             bounces{this, "bounces", 4, {0, 30}, "most scatterings of a path; 1 is direct light only"};
@@ -20,20 +27,40 @@ struct InitialSampling final : Pass {
     Param<int>             switchCandidates{this, "switchCandidates", 1, {1, 256},
                                             "path trees instead, in the one frame in which the object that a pixel's centre sees takes another level: there "
                                             "history knows the old one only"};
-    Param<int>             lightCandidates{this, "lightCandidates", 1, {1, 256}, "lights that the first vertex chooses its light sample from"};
+    Param<int>             lightCandidates{this, "lightCandidates", 1, {1, 256},
+                                           "lights that the first vertex chooses its light sample from; vertex j chooses from a share of 1 / j^2, at least one "
+                                           "(Lin et al. 2026, section 7)"};
     LightTechnique         found{this};
     Param<bool>            roulette{this, "roulette", true, "Russian roulette on the throughput, outside the integrand (Lin et al. 2026, section 6.2.4)"};
     Param<bool>            pixelCentre{this, "pixelCentre", false,
                                        "paths through the centre of each pixel; else the place inside the pixel belongs to the path"};
-    Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes on both sides of a connection"};
-    Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "least length of a connection, scene units"};
+    Param<Criteria>        criteria{this, "criteria", Criteria::distance, {"distance", "footprint"},
+                                    "which vertices may be connected: roughness at both ends and a least length, or roughness before the connection and footprints of "
+                                    "its directions against the pixel's (Lin et al. 2026, Eq. 5)"};
+    Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes at a connection"};
+    Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "criteria distance: least length of a connection, scene units"};
+    Param<float>           distanceShare{this, "distanceShare", 0, {0, 1},
+                                         "criteria distance: the same as a share of the shortest side of the scene's box, the larger counts (Lin et al. 2026, "
+                                         "section 7, take 0.02 for the configuration of 2022)"};
+    Param<float>           footprint{this, "footprint", 0.02f, {0, 100},
+                                     "criteria footprint: c, least footprint in per cent of what a camera ray of all directions would spread over, 4 pi r^2 / cos"};
+    Param<float>           spread{this, "spread", 0.2f, {0, 1}, "criteria footprint: relative deviation of its threshold from path to path, which softens its edge"};
     Param<bool>            forcedNee{this, "forcedNee", true,
                                      "lights found by light sampling are always connected, never replayed (Lin et al. 2026, section 6.2.3)"};
 
     void execute(Frame& frame) override {
-        const ShiftRules agreed{roughness, distance, forcedNee, std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique))};
+        const ShiftRules agreed{std::uint32_t(Criteria(criteria)), roughness, leastDistance(frame), footprint / 100, spread, forcedNee,
+                                std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique))};
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
         frame.dispatch(shader, frame.size());
+    }
+
+private:
+    float leastDistance(const Frame& frame) const {
+        if (distanceShare == 0 || criteria == Criteria::footprint) return distance;
+        const auto [low, high] = frame.scene().bounds();
+        const glm::vec3 sides = high - low;
+        return std::max<float>(distance, distanceShare * std::min({sides.x, sides.y, sides.z}));
     }
 };
 LODESTIR_PASS(InitialSampling, "initial_sampling.comp", "Traces a path tree a pixel and resamples its paths into a reservoir (ReSTIR PT's first stage).")
