@@ -74,6 +74,34 @@ TEST_F(Mutations, BetweenPixels) {
                 RoundTrips::shareAbove(trips["share_lost"].errorsMis, 1e-4f), RoundTrips::shareAbove(right.errorsMis, 1e-4f));
 }
 
+// What decides about connections by footprint, and which light a path ends in, asked otherwise where the path was made than where it goes.
+TEST_F(Mutations, FootprintsAndLights) {
+    plant(folder.path,
+          {{"one_way", "shift_check", "restir/criteria.glsl",
+            "return (p.end != PAIR_SURFACE || p.at > 0.0) && spreadsOver(c.least, pdfFrom(p), p.cosineBefore, p.distance);",
+            "return p.end != PAIR_SURFACE || p.at > 0.0;"},
+           {"another_threshold", "shift_check", "restir/path_vertex.glsl", "pathThreshold(seed, rules.spread)", "pathThreshold(seed.yx, rules.spread)"},
+           {"another_light", "shift_check", "restir/shift.glsl", "lightPoint(w, t.hit.light)", "lightPoint(w, t.hit.light + 1u)"}});
+    ASSERT_FALSE(HasFailure());
+    const std::vector<std::string> checks{"right", "one_way", "another_threshold", "another_light"};
+    // So large a footprint that many a path is near it.
+    OrderedJson passes{{"hits", hitsNode()},
+                       {"initial", initialNode({{"bounces", 3}, {"criteria", "footprint"}, {"footprint", 1.0}, {"lightCandidates", 8}})}};
+    for (const std::string& check : checks) {
+        passes[check] = node(check == "right" ? "shift_check" : check, pathsOf("initial"), near);
+        passes[check]["set"]["suffix"] = "walked";
+    }
+    ShiftSession session(
+        {.scene = sceneFile("ensemble_glossy"), .size = {64, 64}, .passes = passes, .checks = checks, .libraries = {folder.path}});
+    auto trips = tripsOf(session, checks, 20);
+    const auto lost = [&](const char* check) { return double(trips[check].lost) / double(trips[check].there); };
+    const auto off = [&](const char* check) { return RoundTrips::shareAbove(trips[check].all.errorsF, 1e-3f); };
+    EXPECT_LE(lost("right"), 1e-4);
+    EXPECT_LE(off("right"), 1e-4);
+    for (const char* fault : {"one_way", "another_threshold"}) expectFound("return", fault, lost(fault) > 1e-4, lost(fault), lost("right"));
+    expectFound("F there and back", "another_light", off("another_light") > 1e-4, off("another_light"), off("right"));
+}
+
 TEST_F(Mutations, BetweenFrames) {
     plant(folder.path, {{"wrong_world", "shift_check", "shift_check.comp", "    return partnerWorld();\n}",
                          "    return trip == OF_PARTNER && way == BACK ? world() : partnerWorld();\n}"},

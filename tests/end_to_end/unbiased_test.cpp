@@ -64,8 +64,10 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
                                          Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
                                          Case{"ensemble_moving", 8, 960}, Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96},
-                                         Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
-                         [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
+                                         Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"},
+                                         Case{"ensemble_glossy", 4, 96, "restir_pt_enhanced.json"}, Case{"ensemble_lights", 2, 64, "restir_pt_enhanced.json"},
+                                         Case{"ensemble_lens", 8, 96, "restir_pt_enhanced.json"}),
+                         [](const auto& test) { return test.param.scene + "_" + Path(test.param.graph).stem().string(); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
