@@ -6,6 +6,8 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
+#include "restir/pairing.glsl"
+#include "restir/rounds.glsl"
 #include "restir/similar_pixels.glsl"
 
 struct Reuse {
@@ -23,27 +25,22 @@ struct Reuse {
     vec3 radiance;       // sum of F w / p^ over the candidates
 };
 
-uint place(ivec2 p) { return pixelIndex(p); }
-
-Reservoir inputReservoir(ivec2 p) {
-    if (argument(1) == 0) return pathsReservoirs(place(p));
-    return argument(1) == 1 ? madePathsReservoirs(place(p)) : betweenReservoirs(place(p));
-}
-SampleHit inputSample(ivec2 p) {
-    if (argument(1) == 0) return pathsSamples(place(p));
-    return argument(1) == 1 ? madePathsSamples(place(p)) : betweenSamples(place(p));
-}
-
-uvec2 decisions(ivec2 pixel) { return resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt() + argument(0)); }
-
 // Neighbour i of the pixel, which sees `mine`; the pixel itself where there is none.
 ivec2 neighbourOf(World w, ivec2 pixel, PixelView mine, uint i) {
+#if HAS_pairing
+    ivec2 q = partnerOf(pairing(), drawPairing(roundBits()), i, pixel);
+#else
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
+#endif
     if (!inside(q)) return pixel;
     return similarPixels(mine, pixelView(w, hits(place(q)))) ? q : pixel;
 }
 
+#if HAS_pairing
+uint reusePartners() { return pairing().slots; }
+#else
 uint reusePartners() { return uint(params.neighbours); }
+#endif
 World reuseWorld(World now, uint partner, uint way) { return now; }
 
 void reuseStart(inout Reuse r, World w, ivec2 pixel) {
@@ -107,14 +104,8 @@ void reuseEnd(Reuse r, ivec2 pixel) {
     offer(r, pixel, WAYS * reusePartners(), r.own, r.ownHit, resamplingWeight(r.ownShare, target(r.own), r.own.W, 1));
     r.kept.W = contributionWeight(r.ris, target(r.kept));
     setConfidence(r.kept, r.pairs.canonical + r.pairs.neighbours);
-    if (argument(2) != 0) {
-        storePathsReservoirs(place(pixel), r.kept);
-        storePathsSamples(place(pixel), r.keptHit);
-    } else {
-        storeBetweenReservoirs(place(pixel), r.kept);
-        storeBetweenSamples(place(pixel), r.keptHit);
-    }
-    if (argument(0) + 1 == uint(params.rounds)) storeColor(pixel, vec4(r.radiance, 1));
+    storeRound(pixel, r.kept, r.keptHit);
+    if (lastRound()) storeColor(pixel, vec4(r.radiance, 1));
 }
 
 #include "restir/reuse_driver.glsl"

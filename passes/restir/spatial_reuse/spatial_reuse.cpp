@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Paths of neighbours, shifted here.
 #include <framework/pass/pass.h>
+#include <passes/restir/pairing.h>
 #include <passes/restir/paths.h>
+#include <passes/restir/rounds.h>
 #include <passes/restir/rules.h>
 #include <passes/restir/similarity.h>
 
@@ -13,6 +15,9 @@ struct SpatialReuse final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres: which pixels are alike"};
     In<ShiftRules>         rules{this, "rules", "of the pass that made the paths"};
+    In<PairingTables>      pairing{this, "pairing",
+                                   "neighbours are these partners instead of random ones: spatial_paired_reuse shares the shifts between them, here each pixel "
+                                   "makes its own, to compare", Need::optional};
     In<Paths>              paths{this, "paths", "a path of each pixel"};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
@@ -27,14 +32,10 @@ struct SpatialReuse final : Pass {
                                "resampling MIS weights: pairwise, with or without a share that is the pixel's own whatever neighbours say"};
     PassThrough            off{this, paths, pathsOut};
 
-    /// Rounds alternate between two buffers so that the last one writes the output: argument 0 tells the round, 1 where it reads (0: input, 1: output,
-    /// 2: between).
     void execute(Frame& frame) override {
-        for (int round = 0, from = 0; round < rounds; ++round) {
-            const bool toOutput = (rounds - round) % 2 == 1;
-            frame.dispatch(shader, frame.size(), {std::uint32_t(round), std::uint32_t(from), toOutput});
-            from = toOutput ? 1 : 2;
-        }
+        forRounds(std::uint32_t(rounds), [&](std::uint32_t round, std::uint32_t from, std::uint32_t to) {
+            frame.dispatch(shader, frame.size(), {round, from, to});
+        });
     }
 };
 LODESTIR_PASS(SpatialReuse, "spatial_reuse.comp",

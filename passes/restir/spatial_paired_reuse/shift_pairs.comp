@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Shifts the paths of each pixel's partners to it, each once; what is shifted back is in the partner's record. With compaction the paths that have to be
+// replayed are only listed, and a second run of this shader walks the list (Lin et al. 2026, section 6.2.2): lanes that wait for one that replays are few.
+#version 460
+#include "pass.glsl"
+#include "stage.h"
+#include "restir/shift.glsl"
+#include "restir/pairing.glsl"
+#include "restir/rounds.glsl"
+#include "restir/similar_pixels.glsl"
+
+const uint NOTHING = 0xffffffffu;
+
+struct Path {
+    Shift shift;
+    PixelView view;
+    ivec2 pixel;
+    uint record;  // of the shift that is made, or NOTHING
+};
+
+bool walksList() { return argument(3) == STAGE_LISTED; }
+bool lists() { return argument(3) == STAGE_LISTING; }
+
+// x_2 as reconnection vertex needs but the camera ray and the connection.
+bool needsReplay(Reservoir path) { return unpackShape(path.shape).k != 2; }
+
+uint pathItems(World now) { return walksList() ? 1 : pairing().slots; }
+World pathWorld(World now, uint item) { return now; }
+
+void pathStart(inout Path p, World w, ivec2 pixel) {
+    p.record = NOTHING;
+    p.pixel = pixel;
+    if (!walksList()) {
+        p.view = pixelView(w, hits(place(pixel)));
+        return;
+    }
+    if (uint(pixel.x) >= listed(0)) return;
+    p.record = replays(uint(pixel.x));
+    uint at = p.record / PAIRING_SLOTS;
+    p.pixel = ivec2(at % frameSize().x, at / frameSize().x);
+}
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    uint slot = item;
+    if (walksList()) {
+        if (p.record == NOTHING) return false;
+        slot = p.record % PAIRING_SLOTS;
+    } else {
+        p.record = place(pixel) * PAIRING_SLOTS + slot;
+    }
+    ivec2 partner = partnerOf(pairing(), drawPairing(roundBits()), slot, p.pixel);
+    if (!walksList() && (partner == pixel || !inside(partner) || !similarPixels(p.view, pixelView(w, hits(place(partner)))))) {
+        p.shift.jacobian = SHIFT_NO_PARTNER;
+        return false;
+    }
+    Reservoir path = inputReservoir(partner);
+    if (lists() && holdsPath(path) && needsReplay(path)) {
+        storeReplays(addListed(0, 1), p.record);
+        p.record = NOTHING;
+        return false;
+    }
+    return shiftStart(p.shift, w, shiftTo(p.pixel, hits(place(p.pixel)), path, inputSample(partner)), frameSize());
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
+bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
+
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
+    if (p.record == NOTHING) return;
+    storeShifts(p.record, SharedShift(p.shift.path.F, p.shift.path.G, p.shift.jacobian));
+    if (p.shift.jacobian <= 0.0) return;
+    PrimaryHit first = p.shift.hit.hit;
+    storeFirstHits(p.record, SharedFirstHit(first.instance, first.primitive, first.barycentrics, p.shift.hit.uv));
+}
+
+void pathEnd(Path p, ivec2 pixel) {}
+
+#include "trace/driver.glsl"

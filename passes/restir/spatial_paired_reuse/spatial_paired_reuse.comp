@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// Resamples a pixel's path with those of its partners, which have been shifted already: no ray is traced.
+#version 460
+#include "pass.glsl"
+#include "restir/mis.glsl"
+#include "restir/pairing.glsl"
+#include "restir/reservoir.glsl"
+#include "restir/ris.glsl"
+#include "restir/rounds.glsl"
+
+uint recordOf(ivec2 p, uint slot) { return place(p) * PAIRING_SLOTS + slot; }
+
+// The path that a record is of, as it is where it was shifted to.
+Reservoir shiftedPath(ivec2 partner, SharedShift shift) {
+    Reservoir path = inputReservoir(partner);
+    path.F = shift.F;
+    path.G = shift.G;
+    return path;
+}
+SampleHit shiftedSample(ivec2 partner, SharedFirstHit first) {
+    SampleHit hit = inputSample(partner);
+    hit.hit = PrimaryHit(first.instance, first.primitive, first.barycentrics, hit.hit.film, hit.hit.lens);
+    hit.uv = first.uv;
+    return hit;
+}
+
+// Both ends have to agree that they are partners.
+bool pairs(ivec2 pixel, ivec2 partner, uint slot) {
+    return inside(partner) && shifts(recordOf(pixel, slot)).jacobian >= 0.0 && shifts(recordOf(partner, slot)).jacobian >= 0.0;
+}
+
+void main() {
+    if (skip()) return;
+    ivec2 p = pixel();
+    PairingTables tables = pairing();
+    PairingDraw draw = drawPairing(roundBits());
+    Reservoir own = inputReservoir(p);
+    float mine = confidence(own), sum = 0, pHatOwn = target(own);
+    for (uint slot = 0; slot < tables.slots; ++slot) {
+        ivec2 q = partnerOf(tables, draw, slot, p);
+        if (pairs(p, q, slot)) sum += confidence(inputReservoir(q));
+    }
+    PairwiseMis mis = params.mis == mis_pairwise ? pairwiseMis(mine, sum) : defensivePairwiseMis(mine, sum);
+    float ownShare = mis.start;
+    Ris ris = risStart();
+    uint kept = tables.slots + 1;  // none
+    vec3 radiance = vec3(0);
+    for (uint slot = 0; slot < tables.slots; ++slot) {
+        ivec2 q = partnerOf(tables, draw, slot, p);
+        if (!pairs(p, q, slot)) continue;
+        Reservoir other = inputReservoir(q);
+        SharedShift forth = shifts(recordOf(p, slot)), back = shifts(recordOf(q, slot));
+        float c = confidence(other), pHat = luminance(forth.F);
+        if (holdsPath(own)) ownShare += canonicalMis(mis, c, pHatOwn, pHatFromReverse(luminance(back.F), back.jacobian));
+        if (forth.jacobian == 0.0) continue;
+        float w = resamplingWeight(neighbourMis(mis, c, pHat, pHatFromForward(target(other), forth.jacobian)), pHat, other.W, forth.jacobian);
+        if (pHat > 0) radiance += forth.F * (w / pHat);
+        if (risAdd(ris, w, random1(decisions(p), 2 * slot, RANDOM_FREE + 1))) kept = slot;
+    }
+    float w = resamplingWeight(ownShare, pHatOwn, own.W, 1);
+    if (pHatOwn > 0) radiance += own.F * (w / pHatOwn);
+    if (risAdd(ris, w, random1(decisions(p), 2 * tables.slots, RANDOM_FREE + 1))) kept = tables.slots;
+
+    Reservoir path = emptyReservoir(0);
+    SampleHit hit = inputSample(p);
+    if (kept == tables.slots) path = own;
+    if (kept < tables.slots) {
+        ivec2 q = partnerOf(tables, draw, kept, p);
+        path = shiftedPath(q, shifts(recordOf(p, kept)));
+        hit = shiftedSample(q, firstHits(recordOf(p, kept)));
+    }
+    path.W = contributionWeight(ris, target(path));
+    setConfidence(path, mis.canonical + mis.neighbours);
+    storeRound(p, path, hit);
+    if (lastRound()) storeColor(p, vec4(radiance, 1));
+}
