@@ -52,6 +52,13 @@ void dimLight(inout Reservoir r, PathShape s, vec3 share) {
 /// Estimate of the pixel: F(Y) W.
 vec3 shadeReservoir(Reservoir r) { return holdsPath(r) ? r.F * r.W : vec3(0.0); }
 
+/// What a candidate of weight w adds to the estimate by the weights of all candidates, m F W |dT/dx|: in the mean that of the kept one, in colour and
+/// brightness calmer (Lin et al. 2026, section 6.3). F is the candidate's where it is resampled.
+vec3 candidateRadiance(Reservoir r, float w) {
+    float pHat = target(r);
+    return pHat > 0.0 ? r.F * (w / pHat) : vec3(0.0);
+}
+
 // Kinds of reconnection, by what follows x_k: they differ in their Jacobian and in what has to be evaluated anew.
 const uint RC_NONE = 0u;         // the whole path is replayed
 const uint RC_SURFACE = 1u;      // x_k scatters, and the direction after it came from its BSDF

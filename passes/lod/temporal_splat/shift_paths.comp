@@ -6,7 +6,7 @@
 #include "film_projection.glsl"
 #include "lod/path_mapping.glsl"
 #include "restir/mis.glsl"
-#include "restir/neighbours.glsl"
+#include "restir/history.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/suffix.glsl"
@@ -27,7 +27,6 @@ struct Reuse {
 };
 
 uint place(ivec2 p) { return pixelIndex(p); }
-float capped(Reservoir r) { return cappedConfidence(confidence(r), params.cap); }
 
 uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : params.backup > 0 ? 2 : 1; }
 World reuseWorld(World now, uint partner, uint way) {
@@ -63,7 +62,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     if (!splats || way == FORTH) {
         ivec2 past = splats ? pixel : r.before;
         Reservoir old = historyReservoirs(place(past));
-        r.confidence = capped(old);
+        r.confidence = confidence(old);
         if (r.confidence == 0 || (splats && !holdsPath(old))) return shiftOfNothing();
         if (way == FORTH) {
             path = old;
@@ -85,10 +84,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     if (splats) {
         vec3 seen = cameraRay(from, filmOf(pixel, start.film, frameSize()), start.lens).direction;
         if (!project(to, pixel, frameSize(), first, seen, r.landing)) return shiftOfNothing();
-        if (way == BACK) {
-            r.confidence = capped(historyReservoirs(place(r.landing)));
-            if (r.confidence == 0) return shiftOfNothing();
-        }
+        if (way == BACK) r.confidence = confidence(historyReservoirs(place(r.landing)));
         jacobian *= jacobianRatio(filmTerm(to, r.landing, frameSize(), first), filmTerm(from, pixel, frameSize(), start));
     } else if (way == BACK) {
         r.landing = r.before;
@@ -96,6 +92,8 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     } else {
         first = centre;
     }
+    r.confidence = cappedConfidence(r.confidence, historyCap(way == FORTH ? r.landing : pixel));
+    if (r.confidence == 0) return shiftOfNothing();
     return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
 }
 

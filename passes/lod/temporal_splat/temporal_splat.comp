@@ -7,7 +7,7 @@
 #version 460
 #include "pass.glsl"
 #include "restir/mis.glsl"
-#include "restir/neighbours.glsl"
+#include "restir/history.glsl"
 #include "restir/reservoir.glsl"
 #include "restir/ris.glsl"
 #include "base/random.glsl"
@@ -38,20 +38,24 @@ void main() {
     SampleHit keptHit = pathsSamples(i);
     ivec2 before = pixelBefore(p, motion(p));
     bool hasBefore = historyValid() && inside(before);
-    float inherited = hasBefore ? cappedConfidence(confidence(historyReservoirs(pixelIndex(before))), params.cap) : 0;
+    float inherited = hasBefore ? cappedConfidence(confidence(historyReservoirs(pixelIndex(before))), historyCap(p)) : 0;
     float backup = inherited > 0 ? params.backup : 0;  // hangs on confidence alone, so each path of the pixel finds the same
     float mine = confidence(own);
     uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
 
     Ris ris = risStart();
-    risAdd(ris, resamplingWeight(ownMis(mine * target(own), origins(i), backup), target(own), own.W, 1), 0);
+    float w = resamplingWeight(ownMis(mine * target(own), origins(i), backup), target(own), own.W, 1);
+    risAdd(ris, w, 0);
+    vec3 radiance = candidateRadiance(own, w);
     sortList(start, count);
     for (uint k = 0; k < count; ++k) {
         uint source = lists(start + k);
         Landing landing = landings(source);
         Reservoir path = shiftedReservoirs(source);
         float m = pastMis(1 - backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
-        if (!risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, k, RANDOM_FREE))) continue;
+        w = resamplingWeight(m, target(path), path.W, landing.jacobian);
+        radiance += candidateRadiance(path, w);
+        if (!risAdd(ris, w, random1(decisions, k, RANDOM_FREE))) continue;
         kept = path;
         keptHit = shiftedSamples(source);
     }
@@ -59,7 +63,9 @@ void main() {
     if (backup > 0 && landing.target == i) {
         Reservoir path = gatheredReservoirs(i);
         float m = pastMis(backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
-        if (risAdd(ris, resamplingWeight(m, target(path), path.W, landing.jacobian), random1(decisions, count, RANDOM_FREE + 1))) {
+        w = resamplingWeight(m, target(path), path.W, landing.jacobian);
+        radiance += candidateRadiance(path, w);
+        if (risAdd(ris, w, random1(decisions, count, RANDOM_FREE + 1))) {
             kept = path;
             keptHit = gatheredSamples(i);
         }
@@ -68,5 +74,6 @@ void main() {
     setConfidence(kept, mine + inherited * mix(origins(i).kept, 1, backup));
     storePathsReservoirs(i, kept);
     storePathsSamples(i, keptHit);
+    storeColor(p, vec4(radiance, 1));
     storeLanded(p, float(count));
 }

@@ -26,6 +26,8 @@ struct TemporalSplat final : Pass {
     In<Paths>                history{this, "history", "last frame's path of each pixel, after all reuse"};
     Out<Paths>               pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>               landed{this, "landed", "paths of last frame that landed in the pixel", Format::r32f};
+    Out<Image>               color{this, "color", "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
+                                   Format::rgba32f};
     Scratch<Paths>           shifted{this, "shifted", "each path of last frame where it lands", Count::perPixel()};
     Scratch<Paths>           gathered{this, "gathered", "the path that reprojection brings", Count::perPixel()};
     Scratch<Buffer<Landing>> landings{this, "landings", "of each path of last frame", Count::perPixel()};

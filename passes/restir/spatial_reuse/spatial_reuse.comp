@@ -63,8 +63,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
 
 // Offers a candidate to the reservoir: its path here, weight w.
 void offer(inout Reuse r, ivec2 pixel, uint number, Reservoir path, SampleHit hit, float w) {
-    float pHat = target(path);
-    if (pHat > 0) r.radiance += path.F * (w / pHat);
+    r.radiance += candidateRadiance(path, w);
     if (!risAdd(r.ris, w, random1(decisions(pixel), number, RANDOM_FREE + 1))) return;
     r.kept = path;
     r.keptHit = hit;

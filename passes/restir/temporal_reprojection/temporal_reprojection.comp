@@ -5,7 +5,7 @@
 #include "restir/mis.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
-#include "restir/neighbours.glsl"
+#include "restir/history.glsl"
 #include "restir/similar_pixels.glsl"
 #include "restir/suffix.glsl"
 
@@ -40,7 +40,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.past = historyReservoirs(place(r.before));
     r.pastHit = historySamples(place(r.before));
     r.pastTarget = target(r.past);
-    r.confidence = cappedConfidence(confidence(r.past), params.cap * confidence(r.own));
+    r.confidence = cappedConfidence(confidence(r.past), historyCap(pixel) * confidence(r.own));
     r.refresh = walksSuffix(w, last);
 }
 
@@ -70,6 +70,7 @@ void reuseEnd(Reuse r, ivec2 pixel) {
     Reservoir kept = r.own;
     SampleHit keptHit = r.ownHit;
     float mine = confidence(r.own);
+    vec3 radiance = shadeReservoir(r.own);
     if (r.confidence > 0) {
         // Generalised balance heuristic of two (Lin et al. 2022, Eq. 36).
         float mOwn = balanceMis(mine * target(r.own), r.confidence * r.back);
@@ -77,8 +78,11 @@ void reuseEnd(Reuse r, ivec2 pixel) {
         Ris ris = risStart();
         uvec2 decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
         vec2 u = random2(decisions, 0, RANDOM_FREE);
-        risAdd(ris, resamplingWeight(mOwn, target(r.own), r.own.W, 1), u.x);
-        if (risAdd(ris, r.jacobian > 0 ? resamplingWeight(mPast, target(r.past), r.past.W, r.jacobian) : 0, u.y)) {
+        float wOwn = resamplingWeight(mOwn, target(r.own), r.own.W, 1);
+        float wPast = r.jacobian > 0 ? resamplingWeight(mPast, target(r.past), r.past.W, r.jacobian) : 0;
+        radiance = candidateRadiance(r.own, wOwn) + candidateRadiance(r.past, wPast);
+        risAdd(ris, wOwn, u.x);
+        if (risAdd(ris, wPast, u.y)) {
             kept = r.past;
             keptHit = r.pastHit;
         }
@@ -87,6 +91,7 @@ void reuseEnd(Reuse r, ivec2 pixel) {
     }
     storePathsReservoirs(place(pixel), kept);
     storePathsSamples(place(pixel), keptHit);
+    storeColor(pixel, vec4(radiance, 1));
 }
 
 #include "restir/reuse_driver.glsl"
