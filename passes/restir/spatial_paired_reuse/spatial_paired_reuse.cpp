@@ -11,6 +11,8 @@
 #include <passes/restir/rules.h>
 #include <passes/restir/similarity.h>
 
+#include <algorithm>
+
 using namespace lodestir;
 
 enum class Mis { defensive, pairwise };
@@ -46,7 +48,7 @@ struct SpatialPairedReuse final : Pass {
             if (compaction) {
                 frame.fill(listed, 0);
                 shift(frame.size(), STAGE_LISTING);
-                shift({frame.countOf(replays), 1}, STAGE_LISTED);
+                shift({std::max(frame.size().x * frame.size().y / 8, 64u), 1}, STAGE_LISTED);
             } else {
                 shift(frame.size(), STAGE_ALL);
             }
