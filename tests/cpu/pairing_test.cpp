@@ -114,9 +114,14 @@ TEST(Pairing, SlotsKnowNothingOfEachOther) {
 }
 
 TEST(Pairing, IsQuick) {
-    const auto start = std::chrono::steady_clock::now();
-    for (int slot = 0; slot < 3; ++slot) pairingSteps(sizes[slot], pairingSigma(30), 1);
-    std::printf("three tables, radius 30: %.0f ms\n", 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    double best = 1;
+    for (int run = 0; run < 3; ++run) {
+        const auto start = std::chrono::steady_clock::now();
+        for (int slot = 0; slot < 3; ++slot) pairingSteps(sizes[slot], pairingSigma(30), 1);
+        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    std::printf("three tables, radius 30: %.0f ms\n", 1e3 * best);
+    EXPECT_LT(best, 0.3);
 }
 
 }  // namespace

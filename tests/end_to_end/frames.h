@@ -49,7 +49,14 @@ public:
         restart(frame);
     }
     void run(int frames = 1) {
-        for (int i = 0; i < frames; ++i) session_->runner().run();
+        for (int i = 0; i < frames; ++i) report_ = session_->runner().run();
+    }
+    /// Rays that a pass traced in the last frame, by purpose.
+    RayCounts rays(const std::string& pass) const {
+        for (const PassReport& p : report_.passes)
+            if (p.name == pass) return p.rays;
+        ADD_FAILURE() << "no pass " << pass;
+        return {};
     }
     ImageData image(const std::string& port) { return session_->runner().readImage(findSource(session_->graph(), port)); }
     template <class T> std::vector<T> records(const std::string& port) {
@@ -62,6 +69,7 @@ public:
 private:
     TemporaryFolder folder_;
     std::unique_ptr<Session> session_;
+    FrameReport report_;
 };
 
 /// Sum over the finite values, which all of them must be.

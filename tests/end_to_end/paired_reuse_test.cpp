@@ -22,6 +22,7 @@ struct Made {
     std::vector<Reservoir> paths;
     std::vector<SampleHit> hits;
     ImageData color;
+    RayCounts rays;
 };
 
 class PairedReuse : public testing::TestWithParam<const char*> {
@@ -29,7 +30,8 @@ protected:
     Made made(const std::string& type, OrderedJson set = OrderedJson::object()) {
         Frames frames(sceneFile(GetParam()), {80, 48}, passes(type, std::move(set)), {"spatial.color", "spatial.paths.reservoirs", "spatial.paths.samples"});
         frames.run(3);
-        return {frames.records<Reservoir>("spatial.paths.reservoirs"), frames.records<SampleHit>("spatial.paths.samples"), frames.image("spatial.color")};
+        return {frames.records<Reservoir>("spatial.paths.reservoirs"), frames.records<SampleHit>("spatial.paths.samples"), frames.image("spatial.color"),
+                frames.rays("spatial")};
     }
 };
 
@@ -50,7 +52,9 @@ TEST_P(PairedReuse, IsWhatEachPixelWouldHaveMadeAlone) {
         other += !sameBits(a, b) || !sameBits(paired.hits[i], alone.hits[i]);
     }
     EXPECT_GT(held, paired.paths.size() / 4);
-    EXPECT_LE(other, 0u) << "of " << held;
+    EXPECT_EQ(other, 0u) << "of " << held;
+    for (std::size_t purpose = 0; purpose < paired.rays.size(); ++purpose) EXPECT_EQ(2 * paired.rays[purpose], alone.rays[purpose]) << purpose;
+    EXPECT_GT(paired.rays[RAYS_CONNECT], 0u);
 }
 
 TEST_P(PairedReuse, IsTheSameInAnyOrder) {

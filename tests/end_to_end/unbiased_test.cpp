@@ -60,6 +60,30 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
     std::printf("light points: %+.2f %% +- %.2f %%\n", 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
 }
 
+// Partners that share their shifts, in several rounds.
+class UnbiasedPaired : public testing::TestWithParam<Case> {};
+
+TEST_P(UnbiasedPaired, ReuseHasTheMeanOfPathTracing) {
+    const Case& c = GetParam();
+    EnsembleJudge judge({.scene = sourceFolder / "scenes" / (c.scene + ".json"),
+                         .size = {32, 18},
+                         .warmup = 3,
+                         .frame = 3,
+                         .runs = c.runs,
+                         .reference = graph("path_tracer.json", "no accumulation", {}),
+                         .referenceSamples = 2048});
+    const EnsembleResult reuse = judge.judge(graph("restir_pt.json", "paired",
+                                                   {{"initial.candidates", Json(c.candidates)}, {"pairing.radius", Json(5)}, {"spatial.rounds", Json(2)}}));
+    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
+    EXPECT_LE(reuse.halfWidth, 0.01);
+    std::printf("%s, paired: %+.2f %% +- %.2f %%\n", c.scene.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, UnbiasedPaired,
+                         testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_glass", 4, 96},
+                                         Case{"ensemble_lens", 8, 96}),
+                         [](const auto& test) { return test.param.scene; });
+
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
                                          Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},

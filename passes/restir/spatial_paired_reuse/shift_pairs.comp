@@ -24,27 +24,25 @@ bool lists() { return argument(3) == STAGE_LISTING; }
 // x_2 as reconnection vertex needs but the camera ray and the connection.
 bool needsReplay(Reservoir path) { return unpackShape(path.shape).k != 2; }
 
-uint pathItems(World now) { return walksList() ? 1 : pairing().slots; }
+// The list is as long as it turns out to be: each lane walks every so-manieth of its shifts.
+uint pathItems(World now) { return walksList() ? (listed(0) + push.extent.x - 1) / push.extent.x : pairing().slots; }
 World pathWorld(World now, uint item) { return now; }
 
 void pathStart(inout Path p, World w, ivec2 pixel) {
-    p.record = NOTHING;
     p.pixel = pixel;
-    if (!walksList()) {
-        p.view = pixelView(w, hits(place(pixel)));
-        return;
-    }
-    if (uint(pixel.x) >= listed(0)) return;
-    p.record = replays(uint(pixel.x));
-    uint at = p.record / PAIRING_SLOTS;
-    p.pixel = ivec2(at % frameSize().x, at / frameSize().x);
+    if (!walksList()) p.view = pixelView(w, hits(place(pixel)));
 }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uint slot = item;
     if (walksList()) {
-        if (p.record == NOTHING) return false;
+        uint i = item * push.extent.x + uint(pixel.x);
+        p.record = NOTHING;
+        if (i >= listed(0)) return false;
+        p.record = replays(i);
         slot = p.record % PAIRING_SLOTS;
+        uint at = p.record / PAIRING_SLOTS;
+        p.pixel = ivec2(at % frameSize().x, at / frameSize().x);
     } else {
         p.record = place(pixel) * PAIRING_SLOTS + slot;
     }

@@ -11,6 +11,8 @@
 #include <passes/restir/rules.h>
 #include <passes/restir/similarity.h>
 
+#include <algorithm>
+
 using namespace lodestir;
 
 enum class Mis { defensive, pairwise };
@@ -35,7 +37,7 @@ struct SpatialPairedReuse final : Pass {
     Similarity                      similarity{this};
     Param<Mis>                      mis{this, "mis", Mis::defensive, {"defensive", "pairwise"},
                                         "resampling MIS weights: pairwise, with or without a share that is the pixel's own whatever partners say"};
-    Param<bool>                     compaction{this, "compaction", true,
+    Param<bool>                     compaction{this, "compaction", false,
                                                "shifts that replay more than the camera ray are made in a dispatch of their own, where they don't keep others "
                                                "waiting (Lin et al. 2026, section 6.2.2); the result is the same"};
     PassThrough                     off{this, paths, pathsOut};
@@ -46,7 +48,7 @@ struct SpatialPairedReuse final : Pass {
             if (compaction) {
                 frame.fill(listed, 0);
                 shift(frame.size(), STAGE_LISTING);
-                shift({frame.countOf(replays), 1}, STAGE_LISTED);
+                shift({std::max(frame.size().x * frame.size().y / 8, 64u), 1}, STAGE_LISTED);
             } else {
                 shift(frame.size(), STAGE_ALL);
             }
