@@ -92,7 +92,8 @@ TEST_F(HistoryTest, CapFollowsTheMap) {
     }
 }
 
-// Paths fly across columns whose caps differ. Where the map at the pixel's last place makes the cap 0, the own path has to count fully and what lands not at all, which is exact.
+// Paths fly across columns whose caps differ. Where the map at the pixel's last place makes the cap 0, the own path has to count fully and what lands not at
+// all, which is exact.
 TEST_F(HistoryTest, CapsWeighAlikeOnBothSides) {
     plant(folder.path, {{"cap_of_the_landing", "temporal_splat", "shift_paths.comp", "historyCap(way == FORTH ? r.landing : pixel)",
                          "historyCap(r.landing)"},
