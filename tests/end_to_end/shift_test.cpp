@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(, Shifts,
 /// Initial sampling, temporal and spatial reuse, each of them shaded: "first", "past" (temporal), "near" (spatial alone), "both".
 OrderedJson stagesGraph(OrderedJson sampling) {
     return {{"hits", hitsNode()},
-            {"initial", initialNode(std::move(sampling))},
+            {"initial", node("initial_sampling", {{"hits", "hits"}}, std::move(sampling))},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
             {"spatial", node("spatial_reuse", pathsOf("temporal"), {{"radius", 10}})},
             {"alone", node("spatial_reuse", pathsOf("initial"), {{"radius", 10}})},
@@ -156,7 +156,7 @@ struct Switch {
 void expectOneImage(const std::string& scene, const std::vector<Switch>& switches) {
     const std::vector<std::pair<std::string, Json>> defaults{
         {"technique", Json("both")}, {"roulette", Json(true)},     {"forcedNee", Json(true)}, {"roughness", Json(0.2)},
-        {"distance", Json(0.1)},     {"lightCandidates", Json(1)}, {"candidates", Json(1)},   {"pixelCentre", Json(false)}};
+        {"distance", Json(0.1)},     {"lightCandidates", Json(1)}, {"candidates", Json(1)},   {"camera", Json("path")}};
     ShiftSession session({.scene = sceneFile(scene), .size = {48, 48}, .passes = stagesGraph({{"bounces", 3}}), .images = stages});
     std::vector<double> base;
     for (const Switch& s : switches) {
@@ -183,7 +183,7 @@ TEST(Strategies, OfFindingLight) {
                                         {"8 light candidates", {{"lightCandidates", Json(8)}}},
                                         {"without roulette", {{"roulette", Json(false)}}},
                                         {"4 trees", {{"candidates", Json(4)}}},
-                                        {"pixel centres", {{"pixelCentre", Json(true)}}, true}});
+                                        {"pixel centres", {{"camera", Json("hits")}}, true}});
 }
 
 TEST(Strategies, OfConnecting) {

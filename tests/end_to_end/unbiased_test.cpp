@@ -51,7 +51,7 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
                          .warmup = 3,
                          .frame = 3,
                          .runs = 64,
-                         .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.pixelCentre", Json(true)}}),
+                         .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.film", Json("centre")}}),
                          .referenceSamples = 2048});
     const EnsembleResult reuse = judge.judge(
         {.graph = sourceFolder / "passes/restir/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});

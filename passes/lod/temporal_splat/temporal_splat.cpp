@@ -38,7 +38,7 @@ struct TemporalSplat final : Pass {
     History                  reused{this};
     Param<float>             backup{this, "backup", 0.5f, {0, 1},
                                     "share of the history's confidence that goes to a path brought by reprojection, which is there where no path lands; "
-                                    "0: splatting alone"};
+                                    "0: splatting alone; 1 wherever the camera sample isn't the path's (camera of initial_sampling): its place on the film can't move"};
     Param<VertexMapping>     vertexMapping{this, "vertexMapping", VertexMapping::uv, {"triangle", "uv", "uv_no_matching", "primary_only", "reconnection_only"},
                                            "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle "
                                            "has it; the first hit alone; x_k alone"};

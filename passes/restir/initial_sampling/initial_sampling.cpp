@@ -7,9 +7,11 @@
 
 using namespace lodestir;
 
+enum class CameraSample { path, hits };
+
 struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
-    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres, which save the camera rays where pixelCentre is on", Need::optional};
+    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits: where paths begin, if camera says so", Need::optional};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
     Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
@@ -23,15 +25,19 @@ struct InitialSampling final : Pass {
     Param<int>             lightCandidates{this, "lightCandidates", 1, {1, 256}, "lights that the first vertex chooses its light sample from"};
     LightTechnique         found{this};
     Param<bool>            roulette{this, "roulette", true, "Russian roulette on the throughput, outside the integrand (Lin et al. 2026, section 6.2.4)"};
-    Param<bool>            pixelCentre{this, "pixelCentre", false,
-                                       "paths through the centre of each pixel; else the place inside the pixel belongs to the path"};
+    Param<CameraSample>    camera{this, "camera", CameraSample::path, {"path", "hits"},
+                                  "whose place inside the pixel and on the lens paths have: each its own, or that of the pixel's hit in `hits`, whatever path "
+                                  "comes into the pixel, so that no camera ray is traced again"};
     Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes on both sides of a connection"};
     Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "least length of a connection, scene units"};
     Param<bool>            forcedNee{this, "forcedNee", true,
                                      "lights found by light sampling are always connected, never replayed (Lin et al. 2026, section 6.2.3)"};
 
     void execute(Frame& frame) override {
-        const ShiftRules agreed{roughness, distance, forcedNee, std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique))};
+        if (camera == CameraSample::hits && !frame.isBound(hits))
+            throw Error("an initial_sampling has no hits for its paths to begin at", "wire its \"hits\" to a visibility, or set \"camera\" to \"path\"");
+        const ShiftRules agreed{roughness, distance, forcedNee, std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique)),
+                                std::uint32_t(camera == CameraSample::hits)};
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
         frame.dispatch(shader, frame.size());
     }
