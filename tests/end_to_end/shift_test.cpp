@@ -9,10 +9,15 @@
 namespace lodestir::test {
 namespace {
 
+/// Whose place inside the pixel and on the lens paths have: their own, or the pixel's, with one place inside all pixels of a frame.
+enum class Camera { path, frame };
+
 /// Reuse as graphs/restir_pt.json has it; "pixels" shifts fresh paths between pixels, "frames" resampled ones between frames.
-OrderedJson tripsGraph() {
-    return {{"hits", hitsNode()},
-            {"initial", initialNode({{"bounces", 4}})},
+OrderedJson tripsGraph(Camera camera) {
+    OrderedJson hits = hitsNode();
+    if (camera == Camera::frame) hits["set"] = {{"film", "frame"}};
+    return {{"hits", hits},
+            {"initial", node("initial_sampling", {{"hits", "hits"}}, {{"bounces", 4}, {"camera", camera == Camera::frame ? "hits" : "path"}})},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
             {"spatial", node("spatial_reuse", pathsOf("temporal"), {{"radius", 10}})},
             {"pixels", node("shift_check", pathsOf("initial"), {{"radius", 10}})},
@@ -62,11 +67,12 @@ void expectSound(const std::string& name, const RoundTrips& trips, double halfWi
 struct Room {
     const char* scene;
     double halfWidth;  ///< of the interval of energies between pixels: lamps that few pixels see make it wide
+    Camera camera = Camera::path;
 };
 class Shifts : public testing::TestWithParam<Room> {};
 
 TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
-    ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = tripsGraph(), .checks = {"pixels", "frames"}});
+    ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = tripsGraph(GetParam().camera), .checks = {"pixels", "frames"}});
     RoundTrips pixels, frames, walked;
     for (int frame = 0; frame < 40; ++frame) {
         // What follows x_k is walked anew in the second half, whether or not anything moves.
@@ -84,8 +90,9 @@ INSTANTIATE_TEST_SUITE_P(, Shifts,
                          testing::Values(Room{"ensemble_diffuse", 0.01}, Room{"ensemble_glossy", 0.01}, Room{"ensemble_layers", 0.015},
                                          Room{"ensemble_glass", 0.015}, Room{"ensemble_lights", 0.02}, Room{"ensemble_environment", 0.01},
                                          Room{"ensemble_moving", 0.02}, Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03},
-                                         Room{"ensemble_orthographic", 0.01}),
-                         [](const auto& room) { return std::string(room.param.scene); });
+                                         Room{"ensemble_orthographic", 0.01}, Room{"ensemble_glossy", 0.01, Camera::frame},
+                                         Room{"ensemble_moving", 0.02, Camera::frame}, Room{"ensemble_lens", 0.03, Camera::frame}),
+                         [](const auto& room) { return std::string(room.param.scene) + (room.param.camera == Camera::frame ? "_frame_jitter" : ""); });
 
 /// Initial sampling, temporal and spatial reuse, each of them shaded: "first", "past" (temporal), "near" (spatial alone), "both".
 OrderedJson stagesGraph(OrderedJson sampling) {

@@ -15,6 +15,7 @@ struct Case {
     int candidates;  ///< path trees a pixel: as many as bring the half-width below 1 %
     int runs;
     const char* graph = "restir_pt.json";
+    const char* variant = "";
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
@@ -35,7 +36,7 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
                          .reference = graph("path_tracer.json", "no accumulation", {}),
                          .referenceSamples = 2048});
     const EnsembleResult reuse = judge.judge({.graph = sourceFolder / "graphs" / c.graph,
-                                              .variant = {},
+                                              .variant = c.variant,
                                               .set = {{"initial.candidates", Json(c.candidates)}, {"spatial.radius", Json(5)}},
                                               .port = {},
                                               .where = {}});
@@ -65,6 +66,15 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                                          Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
                                          Case{"ensemble_moving", 8, 960}, Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96},
                                          Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
+                         [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
+
+// One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's.
+const auto jittered = [](const char* scene, int candidates, int runs, const char* file = "restir_pt.json") {
+    return Case{scene, candidates, runs, file, "frame jitter"};
+};
+INSTANTIATE_TEST_SUITE_P(FrameJitter, Unbiased,
+                         testing::Values(jittered("ensemble_diffuse", 2, 192), jittered("ensemble_glass", 4, 192), jittered("ensemble_moving", 8, 960),
+                                         jittered("ensemble_lens", 8, 192), jittered("ensemble_moving", 8, 960, "restir_lod.json")),
                          [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
