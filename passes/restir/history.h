@@ -15,7 +15,8 @@ struct History {
                       "not asked",
                       Need::optional},
           cap{pass, "cap", 20, {0, 1000}, "most confidence of what last frame held, in frames' own; 0: no temporal reuse (Lin et al. 2022, section 6.2)"},
-          leastCap{pass, "leastCap", 1, {0, 1000}, "the same where the whole neighbourhood held copies; asked where `duplication` is wired (Lin et al. 2026, section 5)"},
+          leastCap{pass, "leastCap", 1, {0, 1000},
+                   "the same where the whole neighbourhood held copies; asked where `duplication` is wired (Lin et al. 2026, section 5)"},
           alpha{pass, "alpha", 0.1f, {0.01f, 10}, "power of the share of copies, by which `cap` goes to `leastCap` (Lin et al. 2026, section 5)"} {}
 };
 

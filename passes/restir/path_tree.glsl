@@ -104,8 +104,8 @@ bool maybeConnected(PathTree p, uint end, float at, float pdf, Surface s, float 
     return connectable(p.criteria, Pair(end, p.before, at, p.pdf, pdf, p.cosine, abs(dot(s.normal, s.view)), distance));
 }
 
-/// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `light`: number of its light. `warp`: what resampling among
-/// light candidates adds to its weight.
+/// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `light`: number of its light. `warp`:
+/// what resampling among light candidates adds to its weight.
 void offer(inout PathTree p, Reservoir path, PathShape shape, TrianglePlace rc, vec3 F, float density, uint light, float warp) {
     path.seed = p.seed;
     path.shape = packShape(shape, 1.0);

@@ -71,7 +71,4 @@ bool lightConnectable(ShiftRules rules, ConnectionCriteria criteria, Surface s, 
     return connectable(criteria, Pair(PAIR_LIGHT, roughness, 0.0, pdf, 0.0, abs(dot(s.normal, l.direction)), l.cosine, l.distance));
 }
 
-/// Do two camera rays of one pixel coincide? The lens sample counts only where there is a lens.
-bool sameCameraSample(World w, PrimaryHit a, vec2 film, vec2 lens) { return a.film == film && (w.camera.aperture <= 0.0 || a.lens == lens); }
-
 PrimaryHit primaryHit(Hit hit, vec2 film, vec2 lens) { return PrimaryHit(hit.instance, hit.primitive, hit.barycentrics, film, lens); }

@@ -27,7 +27,7 @@ void pathStart(inout Path p, World now, ivec2 pixel) { reuseStart(p.reuse, now, 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     ShiftTask task = shiftOfNothing();
     if (isShift(item)) task = reuseTask(p.reuse, w, pixel, item / WAYS, item % WAYS);
-    return shiftStart(p.shift, w, task, frameSize());
+    return shiftStart(p.shift, w, rules(), task, frameSize());
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }

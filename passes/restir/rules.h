@@ -16,6 +16,7 @@ struct ShiftRules {
     uint forcedNee;        // 1: a light found by light sampling is connected whatever roughness and distance say
     uint lightCandidates;  // lights that light sampling chooses from at x_1; at x_j a share of 1 / j^2, at least 1
     uint technique;        // TECHNIQUE_* (basic/light_technique.glsl)
+    uint pixelCamera;      // 1: the camera sample (place inside the pixel and on the lens) is the pixel's; 0: it belongs to the path
 };
 
 LODESTIR_SHARED_END

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The hybrid shift: takes a path to another pixel or frame, as a step machine that asks for one ray at a time.
 //
-// The camera ray keeps its place inside the pixel and on the lens (lens-vertex copy: Zhang et al. 2024, Area ReSTIR; Jacobian 1). From y_1 the
+// The camera ray keeps its place inside the pixel and on the lens (lens-vertex copy: Zhang et al. 2024, Area ReSTIR; Jacobian 1), or it is that of the
+// pixel the path goes to (ShiftRules.pixelCamera): then it is no dimension of the path, the integrand is radiance through that one place, and the
+// Jacobian is 1 as well. From y_1 the
 // path's own numbers are replayed up to y_{k-1}, which is connected to x_k; what follows x_k is kept (Lin et al. 2022, Generalized Resampled
 // Importance Sampling, section 7.2; Lin et al. 2026, ReSTIR PT Enhanced, section 2.3). Without x_k the whole path is replayed. Where
 // something moved between the two Worlds, what follows x_k is walked again by its numbers, so that its radiance belongs to the World it is
@@ -48,8 +50,8 @@ struct ShiftTask {
     SampleHit base;    // where it begins
     ivec2 to;          // the pixel it goes to
     PrimaryHit first;  // a camera hit of that pixel, in the World the path goes to
-    bool carried;      // `first` is the path's own first hit, taken there, and has to be seen from its place on film and lens; otherwise it is a hit that
-                       // is known anyway, which saves a ray where it is of the same camera sample
+    bool carried;      // `first` is the path's own first hit, taken there, and has to be seen from its place on film and lens; otherwise it is where the
+                       // path begins only if that is the pixel's (ShiftRules.pixelCamera)
     float jacobian;    // of what has happened to the path already; 0: there is nothing to shift
     bool refresh;      // walk anew what follows x_k
 };
@@ -68,14 +70,14 @@ const uint BACK = 1u;   // of the path it is weighed against, to where the other
 const uint WAYS = 2u;
 
 /// Starts a shift in an image of `size` pixels. False: there is nothing to shift.
-bool shiftStart(inout Shift t, World w, ShiftTask task, uvec2 size) {
+bool shiftStart(inout Shift t, World w, ShiftRules rules, ShiftTask task, uvec2 size) {
     t.path = task.path;
     t.hit = task.base;
     t.jacobian = holdsPath(task.path) ? task.jacobian : 0.0;
     t.shape = unpackShape(task.path.shape);
     t.refresh = task.refresh;
     t.carried = task.carried;
-    t.known = task.carried || sameCameraSample(w, task.first, task.base.hit.film, task.base.hit.lens);
+    t.known = task.carried || rules.pixelCamera != 0u;
     if (t.known) t.hit.hit = task.first;
     else t.hit.hit = PrimaryHit(NONE, NONE, vec2(0.0), task.base.hit.film, task.base.hit.lens);
     t.state = task.carried ? SHIFT_SEE : SHIFT_WALK;

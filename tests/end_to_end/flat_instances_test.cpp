@@ -27,7 +27,7 @@ protected:
         return render(name + ".out", writeGraph(folder, name, 17, 17, parameters), "trace", frames, more);
     }
     const std::vector<Quad> cube = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {.color = Point(0), .emission = Point(0.5)});
-    const OrderedJson exact{{"spp", 1}, {"bounces", 0}, {"pixelCentre", true}};
+    const OrderedJson exact{{"spp", 1}, {"bounces", 0}, {"film", "centre"}};
 };
 
 // Its lit faces look outwards on both sides, so it isn't seen through from any, with every way to trace.

@@ -132,7 +132,7 @@ TEST_F(ImagePasses, LoaderSaysWhatIsWrongWithAFile) {
 // The albedo against black is an error that sticks to what is seen. If this fails, flicker follows motion the wrong way.
 TEST_F(ImagePasses, FlickerFollowsTheMotionOfVisibility) {
     const OrderedJson passes = {
-        {"hits", {{"type", "visibility"}, {"in", {{"worldPrev", "scene.world@prev"}}}, {"set", {{"pixelCentre", true}, {"lens", false}}}}}};
+        {"hits", {{"type", "visibility"}, {"in", {{"worldPrev", "scene.world@prev"}}}, {"set", {{"film", "centre"}, {"lens", false}}}}}};
     write("graph.json", {{"format", 1}, {"scene", sceneFile("ensemble_moving").string()}, {"passes", passes}, {"show", "hits.albedo"}});
     const Path out = run("out", folder / "graph.json", {"--size", "320x180", "--frames", "4", "--dump", "hits.motion"});
     writeExr(folder / "black.exr", makeImage(320, 180, 3));

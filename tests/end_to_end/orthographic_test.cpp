@@ -29,8 +29,8 @@ TEST_F(Orthographic, SquaresAreAsWideAtAnyDistance) {
         {"scene", "squares.json"},
         {"frame", {{"size", {64, 32}}, {"count", 2}, {"seed", 1}}},
         {"passes",
-         {{"trace", {{"type", "path_tracer"}, {"set", {{"spp", 1}, {"bounces", 0}, {"pixelCentre", true}}}}},
-          {"hits", {{"type", "visibility"}, {"in", {{"worldPrev", "scene.world@prev"}}}, {"set", {{"pixelCentre", true}}}}}}},
+         {{"trace", {{"type", "path_tracer"}, {"set", {{"spp", 1}, {"bounces", 0}, {"film", "centre"}}}}},
+          {"hits", {{"type", "visibility"}, {"in", {{"worldPrev", "scene.world@prev"}}}, {"set", {{"film", "centre"}}}}}}},
         {"show", "trace"}};
     write("squares.graph.json", graph);
     const Path results = run("out", folder / "squares.graph.json", {"--frames", "2", "--dump", "hits.motion", "--dump", "hits.depth"});

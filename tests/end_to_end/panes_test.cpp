@@ -17,10 +17,10 @@ namespace {
 const std::vector<std::string> techniques{"trace.color", "direct.color", "shade.color"};
 
 OrderedJson passes(int bounces, int spp) {
-    return {{"trace", {{"type", "path_tracer"}, {"set", {{"bounces", bounces}, {"spp", spp}, {"pixelCentre", true}}}}},
+    return {{"trace", {{"type", "path_tracer"}, {"set", {{"bounces", bounces}, {"spp", spp}, {"film", "centre"}}}}},
             {"hits", hitsNode()},
             {"direct", node("restir_di", {{"hits", "hits"}, {"hitsPrev", "hits@prev"}, {"motion", "hits.motion"}, {"history", "direct@prev"}})},
-            {"initial", initialNode({{"bounces", bounces}, {"pixelCentre", true}})},
+            {"initial", node("initial_sampling", {{"hits", "hits"}}, {{"bounces", bounces}, {"camera", "hits"}})},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
             {"spatial", node("spatial_reuse", pathsOf("temporal"), {{"radius", 5}})},
             {"shade", shadeNode("spatial")}};

@@ -158,7 +158,7 @@ TEST_F(Radiosity, PlaneUnderPunctualLightsHasItsClosedForm) {
         writeScene(folder, "plane", view, constantEnvironment(Point(0)), OrderedJson::array({light}));
         const auto images =
             render(isPoint ? "point" : "directional",
-                   writeGraph(folder, "plane", size, size, {{"spp", 1}, {"bounces", 1}, {"pixelCentre", true}}), "trace", 1, {});
+                   writeGraph(folder, "plane", size, size, {{"spp", 1}, {"bounces", 1}, {"film", "centre"}}), "trace", 1, {});
         ASSERT_EQ(images.size(), 1u);
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {

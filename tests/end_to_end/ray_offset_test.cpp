@@ -18,7 +18,7 @@ protected:
     ImageData render(const std::string& name, const View& view, const Point& sun, int width, int height) {
         writeScene(folder, name, view, constantEnvironment(Point(0)),
                    OrderedJson::array({OrderedJson{{"type", "directional"}, {"direction", toJson(sun)}, {"intensity", 1}}}));
-        const Path graph = writeGraph(folder, name, width, height, {{"spp", 1}, {"bounces", 1}, {"pixelCentre", true}});
+        const Path graph = writeGraph(folder, name, width, height, {{"spp", 1}, {"bounces", 1}, {"film", "centre"}});
         const std::vector<ImageData> images = ProgramTest::render(name + ".out", graph, "trace", 1, {});
         return images.empty() ? ImageData{} : images[0];
     }
@@ -140,7 +140,7 @@ TEST_F(RayOffsets, ShadesCloseToLampsHold) {
                 writeModel(folder, "lamp", quads);
                 writeScene(folder, "lamp", {{0, 0.5 * away, 0}, {0, 0, 0}, {0, 0, -1}, 40}, constantEnvironment(Point(0)), lights);
                 const Path graph =
-                    writeGraph(folder, "lamp", 16, 16, {{"spp", 16}, {"bounces", 1}, {"pixelCentre", true}, {"technique", "light"}});
+                    writeGraph(folder, "lamp", 16, 16, {{"spp", 16}, {"bounces", 1}, {"film", "centre"}, {"technique", "light"}});
                 const std::vector<ImageData> images = ProgramTest::render("lamp.out", graph, "trace", 1, {});
                 ASSERT_EQ(images.size(), 1u);
                 for (int py = 0; py < 16; ++py) {

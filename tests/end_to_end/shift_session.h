@@ -15,7 +15,7 @@ namespace lodestir::test {
 
 /// Nodes that graphs of reservoirs are put together from.
 inline OrderedJson hitsNode() {
-    return {{"type", "visibility"}, {"in", {{"worldPrev", "scene@prev"}}}, {"set", {{"pixelCentre", true}, {"lens", false}}}};
+    return {{"type", "visibility"}, {"in", {{"worldPrev", "scene@prev"}}}, {"set", {{"film", "centre"}, {"lens", false}}}};
 }
 inline OrderedJson initialNode(OrderedJson set) { return {{"type", "initial_sampling"}, {"set", std::move(set)}}; }
 /// Inputs of a pass that takes the paths of `paths`.

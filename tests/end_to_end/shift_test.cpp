@@ -9,15 +9,21 @@
 namespace lodestir::test {
 namespace {
 
-/// Reuse as graphs/restir_pt.json has it; "pixels" shifts fresh paths between pixels, "frames" resampled ones between frames. `enhanced`: connections by
-/// footprint, lights of tiles.
-OrderedJson tripsGraph(bool enhanced) {
-    OrderedJson initial = initialNode({{"bounces", 4}});
-    if (enhanced) {
+/// Whose place inside the pixel and on the lens paths have: their own, or the pixel's, with one place inside all pixels of a frame.
+enum class Camera { path, frame };
+/// How connections and lights are chosen: as in 2022, or by footprint and from tiles.
+enum class Sampling { plain, enhanced };
+
+/// Reuse as graphs/restir_pt.json has it; "pixels" shifts fresh paths between pixels, "frames" resampled ones between frames.
+OrderedJson tripsGraph(Camera camera, Sampling sampling) {
+    OrderedJson hits = hitsNode();
+    if (camera == Camera::frame) hits["set"] = {{"film", "frame"}};
+    OrderedJson initial = node("initial_sampling", {{"hits", "hits"}}, {{"bounces", 4}, {"camera", camera == Camera::frame ? "hits" : "path"}});
+    if (sampling == Sampling::enhanced) {
         initial["set"].update(OrderedJson{{"criteria", "footprint"}, {"lightCandidates", 32}});
-        initial["in"] = {{"tiles", "tiles"}};
+        initial["in"]["tiles"] = "tiles";
     }
-    return {{"hits", hitsNode()},
+    return {{"hits", hits},
             {"tiles", {{"type", "light_tiles"}}},
             {"initial", initial},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
@@ -69,12 +75,14 @@ void expectSound(const std::string& name, const RoundTrips& trips, double halfWi
 struct Room {
     const char* scene;
     double halfWidth;  ///< of the interval of energies between pixels: lamps that few pixels see make it wide
-    bool enhanced = false;
+    Camera camera = Camera::path;
+    Sampling sampling = Sampling::plain;
 };
 class Shifts : public testing::TestWithParam<Room> {};
 
 TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
-    ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = tripsGraph(GetParam().enhanced), .checks = {"pixels", "frames"}});
+    const OrderedJson passes = tripsGraph(GetParam().camera, GetParam().sampling);
+    ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = passes, .checks = {"pixels", "frames"}});
     RoundTrips pixels, frames, walked;
     for (int frame = 0; frame < 40; ++frame) {
         // What follows x_k is walked anew in the second half, whether or not anything moves.
@@ -92,14 +100,21 @@ INSTANTIATE_TEST_SUITE_P(, Shifts,
                          testing::Values(Room{"ensemble_diffuse", 0.01}, Room{"ensemble_glossy", 0.01}, Room{"ensemble_layers", 0.015},
                                          Room{"ensemble_glass", 0.015}, Room{"ensemble_lights", 0.02}, Room{"ensemble_environment", 0.01},
                                          Room{"ensemble_moving", 0.02}, Room{"ensemble_panes", 0.02}, Room{"ensemble_lens", 0.03},
-                                         Room{"ensemble_orthographic", 0.01}, Room{"ensemble_glossy", 0.01, true}, Room{"ensemble_lights", 0.02, true},
-                                         Room{"ensemble_moving", 0.02, true}, Room{"ensemble_lens", 0.03, true}),
-                         [](const auto& room) { return std::string(room.param.scene) + (room.param.enhanced ? "_enhanced" : ""); });
+                                         Room{"ensemble_orthographic", 0.01}, Room{"ensemble_glossy", 0.01, Camera::frame},
+                                         Room{"ensemble_moving", 0.02, Camera::frame}, Room{"ensemble_lens", 0.03, Camera::frame},
+                                         Room{"ensemble_glossy", 0.01, Camera::path, Sampling::enhanced},
+                                         Room{"ensemble_lights", 0.02, Camera::path, Sampling::enhanced},
+                                         Room{"ensemble_moving", 0.02, Camera::path, Sampling::enhanced},
+                                         Room{"ensemble_lens", 0.03, Camera::frame, Sampling::enhanced}),
+                         [](const auto& room) {
+                             return room.param.scene + std::string(room.param.camera == Camera::frame ? "_frame_jitter" : "") +
+                                    (room.param.sampling == Sampling::enhanced ? "_enhanced" : "");
+                         });
 
 /// Initial sampling, temporal and spatial reuse, each of them shaded: "first", "past" (temporal), "near" (spatial alone), "both".
 OrderedJson stagesGraph(OrderedJson sampling) {
     return {{"hits", hitsNode()},
-            {"initial", initialNode(std::move(sampling))},
+            {"initial", node("initial_sampling", {{"hits", "hits"}}, std::move(sampling))},
             {"temporal", node("temporal_reprojection", pathsOf("initial", "spatial"))},
             {"spatial", node("spatial_reuse", pathsOf("temporal"), {{"radius", 10}})},
             {"alone", node("spatial_reuse", pathsOf("initial"), {{"radius", 10}})},
@@ -165,7 +180,7 @@ struct Switch {
 void expectOneImage(const std::string& scene, const std::vector<Switch>& switches) {
     const std::vector<std::pair<std::string, Json>> defaults{
         {"technique", Json("both")}, {"roulette", Json(true)},     {"forcedNee", Json(true)}, {"roughness", Json(0.2)},
-        {"distance", Json(0.1)},     {"lightCandidates", Json(1)}, {"candidates", Json(1)},   {"pixelCentre", Json(false)},
+        {"distance", Json(0.1)},     {"lightCandidates", Json(1)}, {"candidates", Json(1)},   {"camera", Json("path")},
         {"criteria", Json("distance")}};
     ShiftSession session({.scene = sceneFile(scene), .size = {48, 48}, .passes = stagesGraph({{"bounces", 3}}), .images = stages});
     std::vector<double> base;
@@ -193,7 +208,7 @@ TEST(Strategies, OfFindingLight) {
                                         {"32 light candidates", {{"lightCandidates", Json(32)}}},
                                         {"without roulette", {{"roulette", Json(false)}}},
                                         {"4 trees", {{"candidates", Json(4)}}},
-                                        {"pixel centres", {{"pixelCentre", Json(true)}}, true}});
+                                        {"pixel centres", {{"camera", Json("hits")}}, true}});
 }
 
 TEST(Strategies, OfConnecting) {

@@ -15,6 +15,10 @@ struct Case {
     int candidates;  ///< path trees a pixel: as many as bring the half-width below 1 %
     int runs;
     const char* graph = "restir_pt.json";
+    const char* variant = "";
+
+    bool paired() const { return variant == std::optional<std::string>("paired") || graph == std::string("restir_pt_enhanced.json"); }
+    const char* radius() const { return paired() ? "pairing.radius" : "spatial.radius"; }
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
@@ -35,8 +39,8 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
                          .reference = graph("path_tracer.json", "no accumulation", {}),
                          .referenceSamples = 2048});
     const EnsembleResult reuse = judge.judge({.graph = sourceFolder / "graphs" / c.graph,
-                                              .variant = {},
-                                              .set = {{"initial.candidates", Json(c.candidates)}, {"spatial.radius", Json(5)}},
+                                              .variant = c.variant,
+                                              .set = {{"initial.candidates", Json(c.candidates)}, {c.radius(), Json(5)}},
                                               .port = {},
                                               .where = {}});
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
@@ -51,7 +55,7 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
                          .warmup = 3,
                          .frame = 3,
                          .runs = 64,
-                         .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.pixelCentre", Json(true)}}),
+                         .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.film", Json("centre")}}),
                          .referenceSamples = 2048});
     const EnsembleResult reuse = judge.judge(
         {.graph = sourceFolder / "passes/restir/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
@@ -60,38 +64,28 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
     std::printf("light points: %+.2f %% +- %.2f %%\n", 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
 }
 
-// Partners that share their shifts, in several rounds.
-class UnbiasedPaired : public testing::TestWithParam<Case> {};
-
-TEST_P(UnbiasedPaired, ReuseHasTheMeanOfPathTracing) {
-    const Case& c = GetParam();
-    EnsembleJudge judge({.scene = sourceFolder / "scenes" / (c.scene + ".json"),
-                         .size = {32, 18},
-                         .warmup = 3,
-                         .frame = 3,
-                         .runs = c.runs,
-                         .reference = graph("path_tracer.json", "no accumulation", {}),
-                         .referenceSamples = 2048});
-    const EnsembleResult reuse = judge.judge(graph("restir_pt.json", "paired",
-                                                   {{"initial.candidates", Json(c.candidates)}, {"pairing.radius", Json(5)}, {"spatial.rounds", Json(2)}}));
-    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
-    EXPECT_LE(reuse.halfWidth, 0.01);
-    std::printf("%s, paired: %+.2f %% +- %.2f %%\n", c.scene.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, UnbiasedPaired,
-                         testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_glass", 4, 96},
-                                         Case{"ensemble_lens", 8, 96}),
-                         [](const auto& test) { return test.param.scene; });
-
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
                                          Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
                                          Case{"ensemble_moving", 8, 960}, Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96},
-                                         Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"},
-                                         Case{"ensemble_glossy", 4, 96, "restir_pt_enhanced.json"}, Case{"ensemble_lights", 2, 64, "restir_pt_enhanced.json"},
-                                         Case{"ensemble_lens", 8, 96, "restir_pt_enhanced.json"}),
-                         [](const auto& test) { return test.param.scene + "_" + Path(test.param.graph).stem().string(); });
+                                         Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
+                         [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
+
+// Partners that share their shifts, alone and with everything else of ReSTIR PT Enhanced: footprints, lights of tiles, one place inside all pixels.
+INSTANTIATE_TEST_SUITE_P(Paired, Unbiased,
+                         testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"}, Case{"ensemble_glass", 4, 96, "restir_pt.json", "paired"},
+                                         Case{"ensemble_lights", 4, 64, "restir_pt_enhanced.json"}, Case{"ensemble_lens", 8, 96, "restir_pt_enhanced.json"},
+                                         Case{"ensemble_glossy", 4, 96, "restir_pt_enhanced.json"}),
+                         [](const auto& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); });
+
+// One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's.
+const auto jittered = [](const char* scene, int candidates, int runs, const char* file = "restir_pt.json") {
+    return Case{scene, candidates, runs, file, "frame jitter"};
+};
+INSTANTIATE_TEST_SUITE_P(FrameJitter, Unbiased,
+                         testing::Values(jittered("ensemble_diffuse", 2, 192), jittered("ensemble_glass", 4, 192), jittered("ensemble_moving", 8, 960),
+                                         jittered("ensemble_lens", 8, 192), jittered("ensemble_moving", 8, 960, "restir_lod.json")),
+                         [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {

@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "base/random.glsl"
+#include "basic/film.glsl"
 #include "basic/light_technique.glsl"
 #include "bsdf/material.glsl"
 #include "light/emission.glsl"
@@ -40,7 +41,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.toLight = false;
     p.direct = vec3(0);
     p.ends = false;
-    vec2 offset = params.pixelCentre ? vec2(0.5) : random2(p.seed, 0, RANDOM_FILM);
+    vec2 offset = filmPlace(p.seed);
     p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), random2(p.seed, 0, RANDOM_LENS));
     p.onward = p.ray;
     return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Unidirectional path tracing: the reference that other techniques are judged by, and the baseline they have to beat.
 #include <framework/pass/pass.h>
+#include <passes/basic/film.h>
 #include <passes/basic/light_technique.h>
 
 using namespace lodestir;
@@ -13,6 +14,6 @@ struct PathTracer final : Pass {
     LightTechnique found{this};
     Param<bool>    roulette{this, "roulette", true, "Russian roulette on the throughput"};
     Param<int>     rouletteStart{this, "rouletteStart", 3, {1, 64}, "first scattering that roulette may end a path after"};
-    Param<bool>    pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};
+    FilmPlace      place{this};
 };
 LODESTIR_PASS(PathTracer, "path_tracer.comp", "Path tracing with next-event estimation, multiple importance sampling and Russian roulette.")

@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "base/random.glsl"
+#include "basic/film.glsl"
 #include "bsdf/material.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
@@ -22,7 +23,7 @@ void pathStart(inout Path p, World now, ivec2 pixel) {}
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
-    p.place = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM);
+    p.place = filmPlace(seed);
     p.film = filmOf(pixel, p.place, depthSize());
     p.lens = params.lens ? random2(seed, 0, RANDOM_LENS) : vec2(0.5);  // the middle of the square is the middle of the disk
     p.ray = cameraRay(w, p.film, p.lens);

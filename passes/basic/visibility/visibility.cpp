@@ -2,6 +2,7 @@
 // The first hits of a frame and what is known of them without shading.
 #include <framework/pass/pass.h>
 #include <framework/shaders/world/primary_hit.h>
+#include <passes/basic/film.h>
 
 using namespace lodestir;
 
@@ -14,7 +15,7 @@ struct Visibility final : Pass {
     Out<Image>              depth{this, "depth", "distance along the view direction, scene units; 0 where nothing was hit", Format::r32f};
     Out<Image>              normal{this, "normal", "shading normal, world space; zero where nothing was hit", Format::rgba16f};
     Out<Image>              albedo{this, "albedo", "base colour, linear; zero where nothing was hit", Format::rgba16f};
-    Param<bool>             pixelCentre{this, "pixelCentre", false, "rays through the centre of each pixel instead of a random point of it"};
+    FilmPlace               place{this};
     Param<bool>             lens{this, "lens", true, "rays from a random point of the camera's aperture instead of its centre"};
 };
 LODESTIR_PASS(Visibility, "visibility.comp", "Finds the first hit of one camera ray a pixel: hits, motion, depth, normal, albedo.")

@@ -3,6 +3,7 @@
 // frame, to know who could have made it. With a backup both happen once more by reprojection.
 #version 460
 #include "pass.glsl"
+#include "backup.glsl"
 #include "film_projection.glsl"
 #include "lod/path_mapping.glsl"
 #include "restir/mis.glsl"
@@ -28,7 +29,7 @@ struct Reuse {
 
 uint place(ivec2 p) { return pixelIndex(p); }
 
-uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : params.backup > 0 ? 2 : 1; }
+uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : backupShare() > 0 ? 2 : 1; }
 World reuseWorld(World now, uint partner, uint way) {
     if (way == FORTH) return now;
     return worldPrev();
@@ -51,6 +52,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
 
 ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
     bool splats = partner == SPLATTED;
+    if (splats && rules().pixelCamera != 0) return shiftOfNothing();
     World from, now = to;
     if (way == BACK) from = now = world();
     else from = worldPrev();

@@ -6,6 +6,7 @@
 // two techniques in turn, pairwise, because neither's density of the other's path is known.
 #version 460
 #include "pass.glsl"
+#include "backup.glsl"
 #include "restir/mis.glsl"
 #include "restir/history.glsl"
 #include "restir/reservoir.glsl"
@@ -39,7 +40,7 @@ void main() {
     ivec2 before = pixelBefore(p, motion(p));
     bool hasBefore = historyValid() && inside(before);
     float inherited = hasBefore ? cappedConfidence(confidence(historyReservoirs(pixelIndex(before))), historyCap(p)) : 0;
-    float backup = inherited > 0 ? params.backup : 0;  // hangs on confidence alone, so each path of the pixel finds the same
+    float backup = inherited > 0 ? backupShare() : 0;  // hangs on confidence alone, so each path of the pixel finds the same
     float mine = confidence(own);
     uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
 

@@ -26,7 +26,8 @@ struct TemporalSplat final : Pass {
     In<Paths>                history{this, "history", "last frame's path of each pixel, after all reuse"};
     Out<Paths>               pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>               landed{this, "landed", "paths of last frame that landed in the pixel", Format::r32f};
-    Out<Image>               color{this, "color", "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
+    Out<Image>               color{this, "color",
+                                     "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
                                    Format::rgba32f};
     Scratch<Paths>           shifted{this, "shifted", "each path of last frame where it lands", Count::perPixel()};
     Scratch<Paths>           gathered{this, "gathered", "the path that reprojection brings", Count::perPixel()};
@@ -40,7 +41,8 @@ struct TemporalSplat final : Pass {
     History                  reused{this};
     Param<float>             backup{this, "backup", 0.5f, {0, 1},
                                     "share of the history's confidence that goes to a path brought by reprojection, which is there where no path lands; "
-                                    "0: splatting alone"};
+                                    "0: splatting alone; 1 wherever the camera sample isn't the path's (camera of initial_sampling), whose place on the "
+                                    "film can't move"};
     Param<VertexMapping>     vertexMapping{this, "vertexMapping", VertexMapping::uv, {"triangle", "uv", "uv_no_matching", "primary_only", "reconnection_only"},
                                            "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle "
                                            "has it; the first hit alone; x_k alone"};

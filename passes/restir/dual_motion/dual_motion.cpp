@@ -11,10 +11,12 @@ struct DualMotion final : Pass {
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres"};
     In<Buffer<PrimaryHit>> hitsPrev{this, "hitsPrev", "last frame's"};
     In<Image>              motion{this, "motion", "to last frame's position, pixels (visibility)"};
-    Out<Image>             motionOut{this, "motion", "the same, but where something was in the way last frame, or the image ended, to a place that saw the surroundings",
+    Out<Image>             motionOut{this, "motion",
+                                     "the same, but where something was in the way last frame, or the image ended, to a place that saw the surroundings",
                                      Format::rg32f};
     Param<float>           depth{this, "depth", 0.1f, {0, 1},
-                                 "what lay nearer to the camera than the pixel's surface by so much of its depth was in its way (Lin et al. 2026, section 6.4)"};
+                                 "what lay nearer to the camera than the pixel's surface by so much of its depth was in its way (Lin et al. 2026, "
+                                 "section 6.4)"};
     PassThrough            off{this, motion, motionOut};
 };
 LODESTIR_PASS(DualMotion, "dual_motion.comp", "Gives pixels that were hidden last frame the motion of what hid them (dual motion vectors).")

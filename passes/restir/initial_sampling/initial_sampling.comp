@@ -18,7 +18,7 @@ struct Path {
     PathTree tree;
     uvec2 decisions;    // seed of the resampling
     bool known;         // the camera hit is
-    PrimaryHit centre;
+    PrimaryHit centre;  // of `hits`
     uint trees;
 };
 
@@ -49,12 +49,13 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     if (item >= p.trees) return false;
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex() * mostTrees() + item, runSeed());
-    vec2 film = params.pixelCentre ? vec2(0.5) : random2(seed, 0, RANDOM_FILM), lens = random2(seed, 0, RANDOM_LENS);
+    vec2 film = random2(seed, 0, RANDOM_FILM), lens = random2(seed, 0, RANDOM_LENS);
+    p.known = params.camera == camera_hits;
+    if (p.known) {
+        film = p.centre.film;
+        lens = p.centre.lens;
+    }
     treeStart(p.tree, seed, film, lens, cameraRay(w, filmOf(pixel, film, frameSize()), lens));
-    p.known = false;
-#if HAS_hits
-    p.known = sameCameraSample(w, p.centre, film, lens);
-#endif
     return true;
 }
 

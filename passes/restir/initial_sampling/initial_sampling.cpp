@@ -12,10 +12,11 @@
 using namespace lodestir;
 
 enum class Criteria { distance, footprint };
+enum class CameraSample { path, hits };
 
 struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
-    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres, which save the camera rays where pixelCentre is on", Need::optional};
+    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits: where paths begin, if camera says so", Need::optional};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
     In<Buffer<TileLight>>  tiles{this, "tiles", "lights drawn beforehand, which vertices choose their candidates from instead of drawing each", Need::optional};
     Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
@@ -32,25 +33,31 @@ struct InitialSampling final : Pass {
                                            "(Lin et al. 2026, section 7)"};
     LightTechnique         found{this};
     Param<bool>            roulette{this, "roulette", true, "Russian roulette on the throughput, outside the integrand (Lin et al. 2026, section 6.2.4)"};
-    Param<bool>            pixelCentre{this, "pixelCentre", false,
-                                       "paths through the centre of each pixel; else the place inside the pixel belongs to the path"};
+    Param<CameraSample>    camera{this, "camera", CameraSample::path, {"path", "hits"},
+                                  "whose place inside the pixel and on the lens paths have: each its own, or that of the pixel's hit in `hits`, whatever path "
+                                  "comes into the pixel, so that no camera ray is traced again"};
     Param<Criteria>        criteria{this, "criteria", Criteria::distance, {"distance", "footprint"},
-                                    "which vertices may be connected: roughness at both ends and a least length, or roughness before the connection and footprints of "
-                                    "its directions against the pixel's (Lin et al. 2026, Eq. 5)"};
+                                    "which vertices may be connected: roughness at both ends and a least length, or roughness before the connection and "
+                                    "footprints of its directions against the pixel's (Lin et al. 2026, Eq. 5)"};
     Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes at a connection"};
     Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "criteria distance: least length of a connection, scene units"};
     Param<float>           distanceShare{this, "distanceShare", 0, {0, 1},
                                          "criteria distance: the same as a share of the shortest side of the scene's box, the larger counts (Lin et al. 2026, "
                                          "section 7, take 0.02 for the configuration of 2022)"};
     Param<float>           footprint{this, "footprint", 0.02f, {0, 100},
-                                     "criteria footprint: c, least footprint in per cent of what a camera ray of all directions would spread over, 4 pi r^2 / cos"};
-    Param<float>           spread{this, "spread", 0.2f, {0, 1}, "criteria footprint: relative deviation of its threshold from path to path, which softens its edge"};
+                                     "criteria footprint: c, least footprint in per cent of what a camera ray of all directions would spread over, "
+                                     "4 pi r^2 / cos"};
+    Param<float>           spread{this, "spread", 0.2f, {0, 1},
+                                  "criteria footprint: relative deviation of its threshold from path to path, which softens its edge"};
     Param<bool>            forcedNee{this, "forcedNee", true,
                                      "lights found by light sampling are always connected, never replayed (Lin et al. 2026, section 6.2.3)"};
 
     void execute(Frame& frame) override {
+        if (camera == CameraSample::hits && !frame.isBound(hits))
+            throw Error("an initial_sampling has no hits for its paths to begin at", "wire its \"hits\" to a visibility, or set \"camera\" to \"path\"");
         const ShiftRules agreed{std::uint32_t(Criteria(criteria)), roughness, leastDistance(frame), footprint / 100, spread, forcedNee,
-                                std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique))};
+                                std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique)),
+                                std::uint32_t(camera == CameraSample::hits)};
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
         frame.dispatch(shader, frame.size());
     }

@@ -14,8 +14,8 @@ constexpr glm::uvec4 sizes(254, 230, 210, 246);
 struct PairingTextures final : Pass {
     Out<PairingTables> pairing{this, "pairing", "the partners of each pixel"};
     Param<float>       radius{this, "radius", 20, {1.6f, 50},
-                              "of the disk with the mean distance of partners, pixels: they lie normally distributed with 0.53 of it per axis (Lin et al. 2026, "
-                              "section 3). Below 1.6 there is no such pairing, which can't be nearer than 0.8 per axis"};
+                              "of the disk with the mean distance of partners, pixels: they lie normally distributed with 0.53 of it per axis (Lin et al. "
+                              "2026, section 3). Below 1.6 there is no such pairing, which can't be nearer than 0.8 per axis"};
     Param<int>         slots{this, "slots", 3, {1, int(PAIRING_SLOTS)}, "partners of a pixel"};
     PairingTextures() { cadence = Cadence::onChange; }
 

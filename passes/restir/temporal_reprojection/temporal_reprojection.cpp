@@ -19,7 +19,8 @@ struct TemporalReprojection final : Pass {
     In<Paths>              paths{this, "paths", "this frame's path of each pixel"};
     In<Paths>              history{this, "history", "last frame's path of each pixel, after all reuse"};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
-    Out<Image>             color{this, "color", "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
+    Out<Image>             color{this, "color",
+                                     "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
                                  Format::rgba32f};
     History                reused{this};
     Similarity             similarity{this, -1, 1e6f};
