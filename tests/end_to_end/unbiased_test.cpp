@@ -17,7 +17,7 @@ struct Case {
     const char* graph = "restir_pt.json";
     const char* variant = "";
 
-    bool paired() const { return variant == std::optional<std::string>("paired") || graph == std::string("restir_pt_enhanced.json"); }
+    bool paired() const { return variant == std::string("paired") || graph == std::string("restir_pt_enhanced.json"); }
     const char* radius() const { return paired() ? "pairing.radius" : "spatial.radius"; }
 };
 
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Paired, Unbiased,
                          testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"}, Case{"ensemble_glass", 4, 96, "restir_pt.json", "paired"},
                                          Case{"ensemble_lights", 4, 64, "restir_pt_enhanced.json"}, Case{"ensemble_lens", 8, 96, "restir_pt_enhanced.json"},
                                          Case{"ensemble_glossy", 4, 96, "restir_pt_enhanced.json"}),
-                         [](const auto& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); });
+                         [](const auto& test) { return test.param.scene + (test.param.variant == std::string("paired") ? "_alone" : "_with_all"); });
 
 // One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's.
 const auto jittered = [](const char* scene, int candidates, int runs, const char* file = "restir_pt.json") {
