@@ -57,7 +57,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         p.record = NOTHING;
         return false;
     }
-    return shiftStart(p.shift, w, shiftTo(p.pixel, hits(place(p.pixel)), path, inputSample(partner)), frameSize());
+    return shiftStart(p.shift, w, rules(), shiftTo(p.pixel, hits(place(p.pixel)), path, inputSample(partner)), frameSize());
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
