@@ -83,8 +83,8 @@ const auto jittered = [](const char* scene, int candidates, int runs, const char
     return Case{scene, candidates, runs, file, "frame jitter"};
 };
 INSTANTIATE_TEST_SUITE_P(FrameJitter, Unbiased,
-                         testing::Values(jittered("ensemble_diffuse", 2, 192), jittered("ensemble_glass", 4, 192), jittered("ensemble_moving", 8, 960),
-                                         jittered("ensemble_lens", 8, 192), jittered("ensemble_moving", 8, 960, "restir_lod.json")),
+                         testing::Values(jittered("ensemble_diffuse", 2, 192), jittered("ensemble_glass", 4, 384), jittered("ensemble_moving", 8, 960),
+                                         jittered("ensemble_lens", 8, 448), jittered("ensemble_moving", 8, 960, "restir_lod.json")),
                          [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
