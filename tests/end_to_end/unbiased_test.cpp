@@ -15,7 +15,7 @@ struct Case {
     int candidates;  ///< path trees a pixel: as many as bring the half-width below 1 %
     int runs;
     const char* graph = "restir_pt.json";
-    const char* variant = "";
+    std::optional<std::string> variant = {};
 
     bool paired() const { return variant == std::string("paired") || graph == std::string("restir_pt_enhanced.json"); }
     const char* radius() const { return paired() ? "pairing.radius" : "spatial.radius"; }
@@ -74,9 +74,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
 // Partners that share their shifts, alone and with everything else of ReSTIR PT Enhanced: footprints, lights of tiles, one place inside all pixels.
 INSTANTIATE_TEST_SUITE_P(Paired, Unbiased,
                          testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"}, Case{"ensemble_glass", 4, 96, "restir_pt.json", "paired"},
-                                         Case{"ensemble_lights", 4, 64, "restir_pt_enhanced.json"}, Case{"ensemble_lens", 8, 96, "restir_pt_enhanced.json"},
-                                         Case{"ensemble_glossy", 4, 96, "restir_pt_enhanced.json"}),
-                         [](const auto& test) { return test.param.scene + (test.param.variant == std::string("paired") ? "_alone" : "_with_all"); });
+                                         Case{"ensemble_lights", 4, 192, "restir_pt_enhanced.json"}, Case{"ensemble_lens", 8, 448, "restir_pt_enhanced.json"},
+                                         Case{"ensemble_glossy", 4, 256, "restir_pt_enhanced.json"}),
+                         [](const auto& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); });
 
 // One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's.
 const auto jittered = [](const char* scene, int candidates, int runs, const char* file = "restir_pt.json") {
