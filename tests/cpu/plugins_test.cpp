@@ -116,7 +116,7 @@ TEST_F(Plugins, AllLoadsWhatLoads) {
     Problems problems;
     std::vector<std::string> ours;
     for (const PluginLibraries::Entry& entry : libraries.all(problems)) {
-        if (entry.type.starts_with("pair") || entry.type.starts_with("single")) ours.push_back(entry.type);
+        if (entry.type.starts_with("pair.") || entry.type.starts_with("single")) ours.push_back(entry.type);
     }
     EXPECT_EQ(ours, (std::vector<std::string>{"pair.First", "pair.Second", "single"}));
     EXPECT_EQ(problems.list().size(), 3u);  // broken, empty, stale

@@ -159,7 +159,7 @@ TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
                       {"spatial only", "restir_pt.json", "spatial only", false, {bounces, many, radius}},
                       {"ReSTIR PT", "restir_pt.json", nullptr, false, {bounces, many, radius}},
                       {"splatting", "restir_lod.json", nullptr, false, {bounces, many, radius}},
-                      {"enhanced", "restir_pt_enhanced.json", nullptr, false, {bounces, many, radius}},
+                      {"enhanced", "restir_pt_enhanced.json", nullptr, false, {bounces, many, {"pairing.radius", Json(5)}}},
                       {"2022", "restir_pt_2022.json", nullptr, true, {bounces, many, radius, {"direct.radius", Json(5)}}}};
     for (const auto& technique : techniques) {
         const EnsembleResult result =

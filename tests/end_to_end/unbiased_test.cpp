@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
 
 // Partners that share their shifts, alone and with everything else of ReSTIR PT Enhanced: footprints, lights of tiles, one place inside all pixels.
 INSTANTIATE_TEST_SUITE_P(Paired, Unbiased,
-                         testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"}, Case{"ensemble_glass", 4, 96, "restir_pt.json", "paired"},
+                         testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"}, Case{"ensemble_glass", 4, 512, "restir_pt.json", "paired"},
                                          Case{"ensemble_lights", 4, 192, "restir_pt_enhanced.json"}, Case{"ensemble_lens", 8, 448, "restir_pt_enhanced.json"},
                                          Case{"ensemble_glossy", 4, 256, "restir_pt_enhanced.json"}),
                          [](const auto& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); });
