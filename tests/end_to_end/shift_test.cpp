@@ -84,10 +84,10 @@ TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
     const OrderedJson passes = tripsGraph(GetParam().camera, GetParam().sampling);
     ShiftSession session({.scene = sceneFile(GetParam().scene), .size = {64, 64}, .passes = passes, .checks = {"pixels", "frames"}});
     RoundTrips pixels, frames, walked;
-    for (int frame = 0; frame < 40; ++frame) {
+    for (int frame = 0; frame < 120; ++frame) {
         // What follows x_k is walked anew in the second half, whether or not anything moves.
-        if (frame == 20) session.set("pixels.suffix", Json("walked"));
-        if (frame == 20) session.set("frames.suffix", Json("walked"));
+        if (frame == 60) session.set("pixels.suffix", Json("walked"));
+        if (frame == 60) session.set("frames.suffix", Json("walked"));
         session.frame();
         pixels.add(session.checks("pixels"));
         if (frame > 0) frames.add(session.checks("frames"));
