@@ -88,9 +88,11 @@ TEST_P(Shifts, ComeBackAndKeepTheirEnergy) {
         // What follows x_k is walked anew in the second half, whether or not anything moves.
         if (frame == 60) session.set("pixels.suffix", Json("walked"));
         if (frame == 60) session.set("frames.suffix", Json("walked"));
+        // Chains are short: in a long one each frame's paths are almost those of the frame before, and frames are no samples.
+        if (frame % 3 == 0) session.restart(std::uint32_t(frame));
         session.frame();
         pixels.add(session.checks("pixels"));
-        if (frame > 0) frames.add(session.checks("frames"));
+        if (frame % 3 > 0) frames.add(session.checks("frames"));
     }
     expectSound("between pixels", pixels, GetParam().halfWidth);
     expectSound("between frames", frames, 0.01);
