@@ -17,7 +17,7 @@ enum class VertexMapping { triangle, uv, uv_no_matching, primary_only, reconnect
 struct TemporalSplat final : Pass {
     In<World>                world{this, "world", "the scene"};
     In<World>                worldPrev{this, "worldPrev", "last frame's scene: what the own path would have been there"};
-    In<Buffer<PrimaryHit>>   hits{this, "hits", "camera hits through the pixel centres"};
+    In<Buffer<PrimaryHit>>   hits{this, "hits", "the camera hit of each pixel"};
     In<Buffer<PrimaryHit>>   hitsPrev{this, "hitsPrev", "last frame's"};
     In<Image>                motion{this, "motion", "to last frame's position, pixels: whose confidence a pixel inherits, and where the backup comes from"};
     In<UvIndex>              uv{this, "uv", "triangles by texture coordinate; unwired: nothing is mapped between levels", Need::optional};

@@ -8,7 +8,7 @@ using namespace lodestir;
 struct DualMotion final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene"};
-    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres"};
+    In<Buffer<PrimaryHit>> hits{this, "hits", "the camera hit of each pixel"};
     In<Buffer<PrimaryHit>> hitsPrev{this, "hitsPrev", "last frame's"};
     In<Image>              motion{this, "motion", "to last frame's position, pixels (visibility)"};
     Out<Image>             motionOut{this, "motion",

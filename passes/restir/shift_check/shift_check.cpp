@@ -13,7 +13,7 @@ using namespace lodestir;
 struct ShiftChecks final : Pass {
     In<World>               world{this, "world", "the scene"};
     In<World>               worldPrev{this, "worldPrev", "last frame's scene, with `history`", Need::optional};
-    In<Buffer<PrimaryHit>>  hits{this, "hits", "camera hits through the pixel centres"};
+    In<Buffer<PrimaryHit>>  hits{this, "hits", "the camera hit of each pixel"};
     In<Buffer<PrimaryHit>>  hitsPrev{this, "hitsPrev", "last frame's, with `history`", Need::optional};
     In<Image>               motion{this, "motion", "to last frame's position, pixels, with `history`", Need::optional};
     In<ShiftRules>          rules{this, "rules", "of the pass that made the paths"};

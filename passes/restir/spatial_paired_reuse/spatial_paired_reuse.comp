@@ -2,8 +2,8 @@
 // Resamples a pixel's path with those of its partners, which have been shifted already: no ray is traced.
 #version 460
 #include "pass.glsl"
-#include "restir/mis.glsl"
 #include "restir/pairing.glsl"
+#include "restir/pairwise.glsl"
 #include "restir/reservoir.glsl"
 #include "restir/ris.glsl"
 #include "restir/rounds.glsl"
@@ -40,7 +40,7 @@ void main() {
         ivec2 q = partnerOf(tables, draw, slot, p);
         if (pairs(p, q, slot)) sum += confidence(inputReservoir(q));
     }
-    PairwiseMis mis = params.mis == mis_pairwise ? pairwiseMis(mine, sum) : defensivePairwiseMis(mine, sum);
+    PairwiseMis mis = pairwiseOf(mine, sum);
     float ownShare = mis.start;
     Ris ris = risStart();
     uint kept = tables.slots + 1;  // none

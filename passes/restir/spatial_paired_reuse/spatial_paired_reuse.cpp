@@ -6,6 +6,7 @@
 
 #include <framework/pass/pass.h>
 #include <passes/restir/pairing.h>
+#include <passes/restir/pairwise.h>
 #include <passes/restir/paths.h>
 #include <passes/restir/rounds.h>
 #include <passes/restir/rules.h>
@@ -15,11 +16,9 @@
 
 using namespace lodestir;
 
-enum class Mis { defensive, pairwise };
-
 struct SpatialPairedReuse final : Pass {
     In<World>                       world{this, "world", "the scene"};
-    In<Buffer<PrimaryHit>>          hits{this, "hits", "camera hits through the pixel centres: which pixels are alike"};
+    In<Buffer<PrimaryHit>>          hits{this, "hits", "the camera hit of each pixel: which pixels are alike"};
     In<ShiftRules>                  rules{this, "rules", "of the pass that made the paths"};
     In<PairingTables>               pairing{this, "pairing", "the partners of each pixel"};
     In<Paths>                       paths{this, "paths", "a path of each pixel"};
@@ -35,8 +34,7 @@ struct SpatialPairedReuse final : Pass {
     Scratch<Buffer<uint>>           listed{this, "listed", "how many they are", Count::fixed(1)};
     Param<int>                      rounds{this, "rounds", 1, {1, 8}, "each round reuses what the one before it made, among other partners"};
     Similarity                      similarity{this};
-    Param<Mis>                      mis{this, "mis", Mis::defensive, {"defensive", "pairwise"},
-                                        "resampling MIS weights: pairwise, with or without a share that is the pixel's own whatever partners say"};
+    PairwiseRule                    weights{this};
     Param<bool>                     compaction{this, "compaction", false,
                                                "shifts that replay more than the camera ray are made in a dispatch of their own, where they don't keep others "
                                                "waiting (Lin et al. 2026, section 6.2.2); the result is the same"};

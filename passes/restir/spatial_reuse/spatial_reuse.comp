@@ -2,7 +2,7 @@
 // Each neighbour costs two shifts: its path to this pixel, and this pixel's path to it, for the MIS weight of the own path.
 #version 460
 #include "pass.glsl"
-#include "restir/mis.glsl"
+#include "restir/pairwise.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
@@ -53,7 +53,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
         if (q != pixel) sum += confidence(inputReservoir(q));
     }
     float mine = confidence(r.own);
-    r.pairs = params.mis == mis_pairwise ? pairwiseMis(mine, sum) : defensivePairwiseMis(mine, sum);
+    r.pairs = pairwiseOf(mine, sum);
     r.ownShare = r.pairs.start;
     r.ris = risStart();
     r.radiance = vec3(0);

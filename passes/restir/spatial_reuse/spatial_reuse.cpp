@@ -2,6 +2,7 @@
 // Paths of neighbours, shifted here.
 #include <framework/pass/pass.h>
 #include <passes/restir/pairing.h>
+#include <passes/restir/pairwise.h>
 #include <passes/restir/paths.h>
 #include <passes/restir/rounds.h>
 #include <passes/restir/rules.h>
@@ -9,11 +10,9 @@
 
 using namespace lodestir;
 
-enum class Mis { defensive, pairwise };
-
 struct SpatialReuse final : Pass {
     In<World>              world{this, "world", "the scene"};
-    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres: which pixels are alike"};
+    In<Buffer<PrimaryHit>> hits{this, "hits", "the camera hit of each pixel: which pixels are alike"};
     In<ShiftRules>         rules{this, "rules", "of the pass that made the paths"};
     In<PairingTables>      pairing{this, "pairing",
                                    "neighbours are these partners instead of random ones: spatial_paired_reuse shares the shifts between them, here each pixel "
@@ -28,8 +27,7 @@ struct SpatialReuse final : Pass {
     Param<int>             neighbours{this, "neighbours", 3, {1, 16}, "neighbours a round"};
     Param<int>             rounds{this, "rounds", 1, {1, 8}, "each round reuses what the one before it made"};
     Neighbourhood          around{this};
-    Param<Mis>             mis{this, "mis", Mis::defensive, {"defensive", "pairwise"},
-                               "resampling MIS weights: pairwise, with or without a share that is the pixel's own whatever neighbours say"};
+    PairwiseRule           weights{this};
     PassThrough            off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {

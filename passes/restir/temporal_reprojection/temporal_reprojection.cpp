@@ -12,7 +12,7 @@ using namespace lodestir;
 struct TemporalReprojection final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene: what the own path would have been there"};
-    In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits through the pixel centres"};
+    In<Buffer<PrimaryHit>> hits{this, "hits", "the camera hit of each pixel"};
     In<Buffer<PrimaryHit>> hitsPrev{this, "hitsPrev", "last frame's"};
     In<Image>              motion{this, "motion", "to last frame's position, pixels"};
     In<ShiftRules>         rules{this, "rules", "of the pass that made the paths"};
