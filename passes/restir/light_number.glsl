@@ -3,24 +3,19 @@
 // wherever the path's end is walked again, the light is drawn again by it, with the chance that it has in the World where that happens.
 #include "base/random.glsl"
 #include "light/light.glsl"
+#include "restir/light_tiles.h"
 
-struct NumberedLight {
-    LightPoint point;
-    uint number;
-};
-
-const uint LIGHT_STRATA = 1024u;  // numbers in a row are of neighbouring slots of the alias table: as many as a tile has lights share it out evenly
-
-/// The light point of a number. Its lowest bits are the highest of the table's slot.
-LightPoint lightPoint(World w, uint number) {
-    uvec2 seed = uvec2(number, 0u);
-    uvec3 choice = randomBits3(seed, 0u, RANDOM_LIGHT_CHOICE);
-    choice.x = number << 22 | choice.x >> 10;
-    return chooseLight(w, choice, random3(seed, 0u, RANDOM_LIGHT_POINT));
+/// Random bits that choose a light (chooseLight). Numbers that differ by 1 choose from neighbouring strata of the alias table, of which there are as many as
+/// a tile has lights: a tile shares the table out evenly.
+uvec3 lightChoice(uint number) {
+    const uint stratum = 0x80000000u / (TILE_LIGHTS / 2u);  // 2^32 / TILE_LIGHTS
+    uvec3 choice = randomBits3(uvec2(number, 0u), 0u, RANDOM_LIGHT_CHOICE);
+    choice.x = number % TILE_LIGHTS * stratum + choice.x / TILE_LIGHTS;
+    return choice;
 }
 
-/// A light by a number that the vertex draws.
-NumberedLight ownLight(World w, uvec2 seed, uint vertex, uint candidate) {
-    uint number = randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE | candidate << 8u).x;
-    return NumberedLight(lightPoint(w, number), number);
-}
+/// The light point of a number.
+LightPoint lightPoint(World w, uint number) { return chooseLight(w, lightChoice(number), random3(uvec2(number, 0u), 0u, RANDOM_LIGHT_POINT)); }
+
+/// The number that a vertex draws for one of its candidates.
+uint lightNumber(uvec2 seed, uint vertex, uint candidate) { return randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE | candidate << 8u).x; }

@@ -2,9 +2,8 @@
 // Which light of which tile a vertex may choose (Lin et al. 2026, ReSTIR PT Enhanced, section 6.1). Pixels of a block share a tile, so that they read
 // the same memory; another vertex or frame takes another tile.
 #include "restir/light_number.glsl"
-#include "restir/light_tiles.h"
 
-const uint TILE_STREAM = 0xffffffffu;   // of the numbers that tiles are drawn by
+const uint TILE_STREAM = 0xffffffffu;    // of the numbers that tiles are drawn by
 const uint CHOICE_STREAM = 0xfffffffeu; // of the tiles that blocks take
 const uint BLOCK = 8u;                  // side of a block, pixels
 
@@ -12,14 +11,21 @@ const uint BLOCK = 8u;                  // side of a block, pixels
 uint tileNumber(uint entry, uint frame, uint run) {
     uint place = entry % TILE_LIGHTS;
     uvec2 seed = streamSeed(uvec2(place, entry / TILE_LIGHTS), frame, run, TILE_STREAM);
-    return (randomBits3(seed, 0u, RANDOM_LIGHT_CHOICE).x & ~(LIGHT_STRATA - 1u)) | place;
+    return randomBits3(seed, 0u, RANDOM_LIGHT_CHOICE).x / TILE_LIGHTS * TILE_LIGHTS + place;
 }
 
 LightPoint lightOf(TileLight t) { return LightPoint(t.light, t.texel, t.uv); }
 
-/// The entry of candidate i of n: places in the tile at equal distances, from a start of the path's own, so that each place has the same chance.
-uint tileEntry(uvec2 seed, uvec2 pixel, uint frame, uint run, uint vertex, uint i, uint n) {
+/// Where in its tile a vertex finds its candidates: at equal distances, from a start of the path's own, so that each place has the same chance.
+struct LightDraw {
+    uint tile, start, step;
+};
+
+/// For `candidates` of them.
+LightDraw drawFromTile(uvec2 seed, uvec2 pixel, uint frame, uint run, uint vertex, uint candidates) {
     uint tile = randomBits3(streamSeed(pixel / BLOCK, frame, run, CHOICE_STREAM), vertex, RANDOM_LIGHT_CHOICE).x % LIGHT_TILES;
-    uint start = randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE).x;
-    return tile * TILE_LIGHTS + (start + i * max(TILE_LIGHTS / n, 1u)) % TILE_LIGHTS;
+    return LightDraw(tile, randomBits3(seed, vertex, RANDOM_LIGHT_CHOICE).x, max(TILE_LIGHTS / candidates, 1u));
 }
+
+/// The entry of one of them.
+uint tileEntry(LightDraw d, uint candidate) { return d.tile * TILE_LIGHTS + (d.start + candidate * d.step) % TILE_LIGHTS; }

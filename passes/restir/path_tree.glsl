@@ -7,8 +7,11 @@
 // ReSTIR PT Enhanced, section 6.2.4). Vertices choose their light sample from several by resampling, whose random density goes into the weight
 // as well (section 6.1).
 //
-// The includer defines, before it includes this file,
-//   NumberedLight treeLight(World w, uvec2 seed, uint vertex, uint candidate, uint candidates);  one of so many that the vertex may choose
+// The includer defines, before it includes this file, how a vertex draws the lights that it chooses from,
+//   struct LightDraw { ... };
+//   LightDraw drawLights(uvec2 seed, uint vertex, uint candidates);
+//   LightPoint drawnLight(World w, LightDraw d, uint candidate);
+//   uint drawnNumber(LightDraw d, uint candidate);  of that light: lightPoint() finds it again
 #include "base/math.glsl"
 #include "restir/path_vertex.glsl"
 #include "restir/ris.glsl"
@@ -169,21 +172,21 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
 bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, vec3 wo, float distance) {
     // Resampled importance sampling of a candidate by what it would send if nothing were in the way.
     uint candidates = lightCandidates(rules, p.vertex);
+    LightDraw draw = drawLights(p.seed, p.vertex, candidates);
     LightSample light;
-    uint number = 0u;
+    uint kept;
     vec3 chosen = vec3(0.0);
     float pdfChosen = 0.0;  // of the BSDF
     Ris ris = risStart();
     for (uint i = 0u; i < candidates; ++i) {
-        NumberedLight candidate = treeLight(w, p.seed, p.vertex, i, candidates);
-        LightSample l = lightSampleAt(w, candidate.point, s.position);
+        LightSample l = lightSampleAt(w, drawnLight(w, draw, i), s.position);
         if (l.radianceOverPdf == vec3(0.0)) continue;
         float pdf;
         vec3 f = bsdfEval(b, wo, onGrid(l.direction), pdf);
         vec3 sent = f * l.radianceOverPdf * lightShare(rules, p.vertex, l.pdf, pdf);
         if (!risAdd(ris, luminance(sent), random1(p.seed, p.vertex, RANDOM_FREE | i << 8u))) continue;
         light = l;
-        number = candidate.number;
+        kept = i;
         chosen = sent;
         pdfChosen = pdf;
     }
@@ -219,7 +222,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         density = vertexDensity(w, light);
         rc.barycentrics = light.point.uv;
     }
-    offer(p, path, shape, rc, throughput * chosen, density, number, warp);
+    offer(p, path, shape, rc, throughput * chosen, density, drawnNumber(draw, kept), warp);
     p.ray = shadowRay(w, s, light);
     return true;
 }

@@ -41,6 +41,7 @@ void main() {
             }
             // One key: the seed is an exclusive-or away from pixel and index, hence unique.
             if (i == 0u) EXPECT_EQ(pathSeed(pixel, n, 5u) ^ pathSeed(uvec2(0), 0u, 5u), uvec2(pixel.x | pixel.y << 16, n));
+            if (i == 0u) EXPECT_EQ(seedPixel(pathSeed(pixel, n, 5u), 5u), pixel);
         }
         if (id > 0u) return;
         // Known answers, computed apart from this code.

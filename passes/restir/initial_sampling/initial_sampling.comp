@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #include "pass.glsl"
-#include "restir/light_tiles.glsl"
 
+// How a vertex draws the lights that it chooses from.
 #if HAS_tiles
-NumberedLight treeLight(World w, uvec2 seed, uint vertex, uint candidate, uint candidates) {
-    uint entry = tileEntry(seed, seedPixel(seed, runSeed()), frameIndex(), runSeed(), vertex, candidate, candidates);
-    return NumberedLight(lightOf(tiles(entry)), tileNumber(entry, frameIndex(), runSeed()));
+#include "restir/light_tiles.glsl"
+LightDraw drawLights(uvec2 seed, uint vertex, uint candidates) {
+    return drawFromTile(seed, seedPixel(seed, runSeed()), frameIndex(), runSeed(), vertex, candidates);
 }
+LightPoint drawnLight(World w, LightDraw d, uint candidate) { return lightOf(tiles(tileEntry(d, candidate))); }
+uint drawnNumber(LightDraw d, uint candidate) { return tileNumber(tileEntry(d, candidate), frameIndex(), runSeed()); }
 #else
-NumberedLight treeLight(World w, uvec2 seed, uint vertex, uint candidate, uint candidates) { return ownLight(w, seed, vertex, candidate); }
+#include "restir/light_number.glsl"
+struct LightDraw {
+    uvec2 seed;
+    uint vertex;
+};
+LightDraw drawLights(uvec2 seed, uint vertex, uint candidates) { return LightDraw(seed, vertex); }
+uint drawnNumber(LightDraw d, uint candidate) { return lightNumber(d.seed, d.vertex, candidate); }
+LightPoint drawnLight(World w, LightDraw d, uint candidate) { return lightPoint(w, drawnNumber(d, candidate)); }
 #endif
 
 #include "restir/path_tree.glsl"
