@@ -61,6 +61,7 @@ void SessionOptions::addTo(Command& command) {
     addRendererOptions(command, renderer);
     command.flag("--check-bounds", checkBounds, "fail when a shader reads or writes outside a port");
     command.flag("--all-barriers", allBarriers, "a barrier before every pass, to find missing ones by comparing images");
+    command.flag("--share-memory", shareMemory, "ports that aren't needed at the same time share memory");
     command.flag("--count-steps", countSteps, "count the nodes that rays visit");
 }
 
@@ -80,7 +81,8 @@ Session::Session(const SessionOptions& options, SessionParts parts) : renderer_(
         log::note("device {}, {}; rays by {}", device().facts().name, device().reason(), why);
     }
     const RunnerOptions how{
-        .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .countSteps = options.countSteps, .slice = parts.slice};
+        .pinned = dumps_, .checkBounds = options.checkBounds, .allBarriers = options.allBarriers, .keepAll = parts.keepAll, .shareMemory = options.shareMemory,
+        .countSteps = options.countSteps, .slice = parts.slice};
     std::optional<log::Progress> progress;
     runner_ = renderer_.bringUp(*graph_, *scene_, how, parts.compiled ? parts.compiled : [&](std::size_t done, std::size_t all) {
         if (!progress) progress.emplace("compiling shaders, which the driver keeps for the next start", all);

@@ -24,7 +24,7 @@ struct SessionOptions {
     GraphOptions changes;
     RendererOptions renderer;
     std::vector<std::string> dumps;  ///< ports to be read after a frame
-    bool checkBounds = false, allBarriers = false, countSteps = false;
+    bool checkBounds = false, allBarriers = false, shareMemory = false, countSteps = false;
 
     /// Adds the options that all rendering commands share.
     void addTo(Command& command);
@@ -36,6 +36,7 @@ struct SessionParts {
     std::shared_ptr<Scene> scene;        ///< where it is of the graph's scene file
     std::function<void(Graph&)> adjust;  ///< sets parameters before anything is made of the graph
     double slice = 0;                    ///< RunnerOptions::slice
+    bool keepAll = false;                ///< RunnerOptions::keepAll
     /// Told how many of how many shaders are ready; empty: a line of progress on stderr.
     std::function<void(std::size_t done, std::size_t all)> compiled;
 };

@@ -29,13 +29,13 @@ Hash KernelSource::hash() const {
     return hash;
 }
 
-KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options) {
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options) {
     const GraphNode& n = graph.nodes[std::size_t(node)];
     const auto start = std::chrono::steady_clock::now();
     gpu::ShaderSource source;
     source.file = shaderOf(*n.plugin, shader);
     source.folders = includeFolders(*n.plugin);
-    source.generated["pass.glsl"] = passHeader(graph, node);
+    source.generated["pass.glsl"] = passHeader(graph, plan, node);
     source.texelReads = device.heap() && device.heap()->isWhole();
     constexpr const char* bodies[] = {"TRACE_PACKET", "TRACE_LANE", "TRACE_RAY_QUERY"};
     source.defines.emplace_back(bodies[std::size_t(options.rays)], "1");

@@ -46,6 +46,12 @@ bool Runner::State::takeParameters(std::size_t node) {
     return changed;
 }
 
+std::uint32_t Runner::State::countOf(std::size_t node, std::size_t port) const {
+    const Port& made = *graph_.nodes[node].pass->ports[port];
+    if (made.isInput() || made.count.kind != Count::Kind::reserved) return lodestir::countOf(graph_, int(node), int(port), size_);
+    return std::uint32_t(memories_->at(std::size_t(plan_.resourceOf(int(node), int(port)))).bytes / made.type.size);
+}
+
 void Runner::State::fillBlock(std::size_t node) {
     NodeState& state = nodes_[node];
     std::vector<std::byte> block = state.parameters;
@@ -70,7 +76,7 @@ void Runner::State::fillBlock(std::size_t node) {
                 record.address = (source.prev ? memory.last() : memory.now()).address();
                 const bool image = graph_.port(source).type.kind == PortType::Kind::image;
                 record.size =
-                    image ? lodestir::sizeOf(graph_, source.node, source.port, size_) : glm::uvec2(countOf(graph_, source.node, source.port, size_), 1);
+                    image ? lodestir::sizeOf(graph_, source.node, source.port, size_) : glm::uvec2(countOf(std::size_t(source.node), std::size_t(source.port)), 1);
             }
         }
         std::memcpy(block.data() + state.layout.ports[p], &record, sizeof record);

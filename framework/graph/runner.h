@@ -22,6 +22,8 @@ struct RunnerOptions {
     std::vector<Source> pinned;  ///< ports to be read after a frame, besides the shown one
     bool checkBounds = false;    ///< count accesses outside a port; Error after the frame
     bool allBarriers = false;    ///< a barrier before every step
+    bool keepAll = false;        ///< any port can be read after a frame
+    bool shareMemory = false;    ///< ports whose lifetimes don't meet share memory
     bool countSteps = false;     ///< count the nodes that traversal visits (costs time)
     double slice = 0;            ///< milliseconds of work that go to the device at a time, so that others get their turn; 0: a frame is one piece
 };

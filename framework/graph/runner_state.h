@@ -25,8 +25,8 @@ public:
           graph_(graph),
           scene_(scene),
           options_(std::move(options)),
-          plan_(makePlan(graph, options_.pinned, {.allBarriers = options_.allBarriers})),
-          kernels_(device, graph, scene, options_),
+          plan_(makePlan(graph, options_.pinned, {.keepAll = options_.keepAll, .sharing = options_.shareMemory, .allBarriers = options_.allBarriers})),
+          kernels_(device, graph, plan_, scene, options_),
           commands_(device, std::uint32_t(2 * plan_.steps.size() + 4) + (options_.slice > 0 ? 2 * maxPieces : 0)),
           slices_(options_.slice),
           size_(graph.description.size),
@@ -89,6 +89,7 @@ private:
     void beginStep(Work& work);
     void endStep(Work& work);
     bool takeParameters(std::size_t node);
+    std::uint32_t countOf(std::size_t node, std::size_t port) const;  ///< elements of a buffer port as they are now
     void fillBlock(std::size_t node);
     std::vector<std::uint64_t> inputVersions(std::size_t node) const;
     void checkFaults() const;

@@ -40,11 +40,11 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         p.record = NOTHING;
         if (i >= listed(0)) return false;
         p.record = replays(i);
-        slot = p.record % PAIRING_SLOTS;
-        uint at = p.record / PAIRING_SLOTS;
+        slot = p.record % pairing().slots;
+        uint at = p.record / pairing().slots;
         p.pixel = ivec2(at % frameSize().x, at / frameSize().x);
     } else {
-        p.record = place(pixel) * PAIRING_SLOTS + slot;
+        p.record = place(pixel) * pairing().slots + slot;
     }
     ivec2 partner = partnerOf(pairing(), drawPairing(roundBits()), slot, p.pixel);
     if (!walksList() && (partner == pixel || !inside(partner) || !similarPixels(p.view, pixelView(w, hits(place(partner)))))) {
@@ -66,7 +66,7 @@ bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rul
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
     if (p.record == NOTHING) return;
     storeShifts(p.record, SharedShift(p.shift.path.F, p.shift.path.G, p.shift.jacobian));
-    if (p.shift.jacobian <= 0.0) return;
+    if (p.shift.jacobian <= 0.0 || rules().pixelCamera != 0u) return;
     PrimaryHit first = p.shift.hit.hit;
     storeFirstHits(p.record, SharedFirstHit(first.instance, first.primitive, first.barycentrics, p.shift.hit.uv));
 }

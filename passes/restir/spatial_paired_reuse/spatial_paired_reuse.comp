@@ -8,7 +8,7 @@
 #include "restir/ris.glsl"
 #include "restir/rounds.glsl"
 
-uint recordOf(ivec2 p, uint slot) { return place(p) * PAIRING_SLOTS + slot; }
+uint recordOf(ivec2 p, uint slot) { return place(p) * pairing().slots + slot; }
 
 // The path that a record is of, as it is where it was shifted to.
 Reservoir shiftedPath(ivec2 partner, SharedShift shift) {
@@ -17,10 +17,17 @@ Reservoir shiftedPath(ivec2 partner, SharedShift shift) {
     path.G = shift.G;
     return path;
 }
-SampleHit shiftedSample(ivec2 partner, SharedFirstHit first) {
+SampleHit shiftedSample(ivec2 p, ivec2 partner, uint slot) {
     SampleHit hit = inputSample(partner);
-    hit.hit = PrimaryHit(first.instance, first.primitive, first.barycentrics, hit.hit.film, hit.hit.lens);
-    hit.uv = first.uv;
+    if (rules().pixelCamera != 0u) {  // all paths of a pixel begin where its own does
+        SampleHit own = inputSample(p);
+        hit.hit = own.hit;
+        hit.uv = own.uv;
+    } else {
+        SharedFirstHit first = firstHits(recordOf(p, slot));
+        hit.hit = PrimaryHit(first.instance, first.primitive, first.barycentrics, hit.hit.film, hit.hit.lens);
+        hit.uv = first.uv;
+    }
     return hit;
 }
 
@@ -67,7 +74,7 @@ void main() {
     if (kept < tables.slots) {
         ivec2 q = partnerOf(tables, draw, kept, p);
         path = shiftedPath(q, shifts(recordOf(p, kept)));
-        hit = shiftedSample(q, firstHits(recordOf(p, kept)));
+        hit = shiftedSample(p, q, kept);
     }
     path.W = contributionWeight(ris, target(path));
     setConfidence(path, mis.canonical + mis.neighbours);
