@@ -29,7 +29,8 @@ Hash KernelSource::hash() const {
     return hash;
 }
 
-KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options) {
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader,
+                          const RunnerOptions& options) {
     const GraphNode& n = graph.nodes[std::size_t(node)];
     const auto start = std::chrono::steady_clock::now();
     gpu::ShaderSource source;

@@ -23,7 +23,8 @@ struct KernelSource {
 };
 
 /// Reads and compiles a shader of a node for a device and a scene. Error with the compiler's messages.
-KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options);
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader,
+                          const RunnerOptions& options);
 
 /// Persistent workgroups: a few that fetch tiles from a counter, because a CPU driver spreads workgroups over its threads beforehand.
 inline bool usesPersistentGroups(const gpu::Device& device) { return device.facts().type == "cpu"; }

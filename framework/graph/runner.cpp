@@ -75,8 +75,8 @@ void Runner::State::fillBlock(std::size_t node) {
                 const PortMemory& memory = memories_->at(std::size_t(resource));
                 record.address = (source.prev ? memory.last() : memory.now()).address();
                 const bool image = graph_.port(source).type.kind == PortType::Kind::image;
-                record.size =
-                    image ? lodestir::sizeOf(graph_, source.node, source.port, size_) : glm::uvec2(countOf(std::size_t(source.node), std::size_t(source.port)), 1);
+                record.size = image ? lodestir::sizeOf(graph_, source.node, source.port, size_)
+                                    : glm::uvec2(countOf(std::size_t(source.node), std::size_t(source.port)), 1);
             }
         }
         std::memcpy(block.data() + state.layout.ports[p], &record, sizeof record);

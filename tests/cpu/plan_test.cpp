@@ -262,10 +262,13 @@ TEST(Plan, WritesInPlaceWhatNobodyElseNeeds) {
 
 TEST(Plan, MakesOptionalOutputsForReadersAlone) {
     fake::Workshop workshop;
-    const char* passes = R"("r": {"type": "render"}, "g": {"type": "grade", "in": {"color": "r.color"}}, "t": {"type": "tone_map", "in": {"color": "g.change"}})";
+    const char* passes = R"("r": {"type": "render"}, "g": {"type": "grade", "in": {"color": "r.color"}},
+                            "t": {"type": "tone_map", "in": {"color": "g.change"}})";
     const Graph g = workshop.build(passes, "g.graded");
     const auto isMade = [&](const Plan& plan) { return plan.resourceOf(g.find("g"), 2) >= 0; };
-    const auto stores = [&](const Plan& plan) { return passHeader(g, plan, g.find("g")).find("void storeChange(ivec2 p, vec2 value) {}") == std::string::npos; };
+    const auto stores = [&](const Plan& plan) {
+        return passHeader(g, plan, g.find("g")).find("void storeChange(ivec2 p, vec2 value) {}") == std::string::npos;
+    };
     for (const auto& [plan, made] : {std::pair(makePlan(g), false), std::pair(makePlan(g, {findSource(g, "g.change")}), true),
                                      std::pair(makePlan(g, {findSource(g, "t")}), true), std::pair(makePlan(g, {}, {.keepAll = true}), true)}) {
         EXPECT_EQ(isMade(plan), made);
