@@ -5,6 +5,7 @@
 #include "kit/cloth.h"
 #include "kit/foliage.h"
 #include "kit/furniture.h"
+#include "kit/grip.h"
 #include "kit/joinery.h"
 #include "kit/masonry.h"
 #include "kit/metals.h"
@@ -152,11 +153,8 @@ void addShower(Glb& glb, const Paints& p) {
     door.add(p.edge, slab({-w - 0.001f, low, -0.004f}, {-w + 0.001f, showerHeight, 0.004f}, 1));
     door.add(p.edge, slab({-w, showerHeight, -0.004f}, {0, showerHeight + 0.002f, 0.004f}, 1));
     for (float y : {0.30f, showerHeight - 0.30f}) door.add(p.chrome, slab({-0.055f, y, -0.012f}, {0.02f, y + 0.09f, 0.012f}, 1, 0.003f));
-    for (float side : {-1.0f, 1.0f}) {
-        const Station handle[] = {{{-w + 0.05f, 0.95f, 0}, 0.008f}, {{-w + 0.05f, 0.95f, side * 0.045f}, 0.008f}, {{-w + 0.05f, 0.965f, side * 0.052f}, 0.008f},
-                                  {{-w + 0.05f, 1.235f, side * 0.052f}, 0.008f}, {{-w + 0.05f, 1.25f, side * 0.045f}, 0.008f}, {{-w + 0.05f, 1.25f, 0}, 0.008f}};
-        door.add(p.chrome, tube(handle, 20));
-    }
+    for (float side : {-1.0f, 1.0f})
+        door.add(p.chrome, grip({-w + 0.05f, 0.95f, 0}, {-w + 0.05f, 1.25f, 0}, {0, 0, side * 0.05f}, 0.008f));
     glb.addNode(door, {.translation = {right - 0.015f, 0, showerFront}, .rotation = turnY(22)});
     glb.addNode(shower("shower", p.chrome, 2.12f, 0.42f), {.translation = {right, 0, -1.32f}, .rotation = turnY(-90)});
 }
@@ -173,9 +171,7 @@ void addVanity(Glb& glb, const Paints& p) {
         for (const glm::vec2& y : {glm::vec2(0.34f, 0.572f), glm::vec2(0.576f, top - 0.034f)}) {
             board({x, y.x, z0}, {x + 0.02f, y.y, z1}, Axis::z, uint32_t(20 + 3 * i + int(y.x * 7)));
             const float z = (z0 + z1) / 2, rail = y.y - 0.045f;
-            const Station grip[] = {{{x + 0.018f, rail, z - 0.08f}, 0.005f}, {{x + 0.040f, rail, z - 0.08f}, 0.005f}, {{x + 0.046f, rail, z - 0.072f}, 0.005f},
-                                    {{x + 0.046f, rail, z + 0.072f}, 0.005f}, {{x + 0.040f, rail, z + 0.08f}, 0.005f}, {{x + 0.018f, rail, z + 0.08f}, 0.005f}};
-            cabinet.add(p.chrome, tube(grip, 16));
+            cabinet.add(p.chrome, grip({x + 0.018f, rail, z - 0.08f}, {x + 0.018f, rail, z + 0.08f}, {0.028f, 0, 0}, 0.005f));
         }
     }
     cabinet.add(p.marble, facing(slab({left, top - 0.03f, low - 0.01f}, {left + deep, top, high + 0.01f}, 1, 0.004f), marble.size()));
