@@ -14,9 +14,9 @@ namespace lodestir::generate {
 
 namespace {
 
-const Station trunk[] = {{{-0.60f, 0.03f, 0}, 0.05f}, {{-0.56f, 0.02f, 0}, 0.13f}, {{-0.46f, 0.02f, 0}, 0.205f}, {{-0.30f, 0.01f, 0}, 0.225f},
-                         {{-0.06f, -0.03f, 0}, 0.20f}, {{0.14f, -0.03f, 0}, 0.21f}, {{0.30f, 0.02f, 0}, 0.215f}, {{0.42f, 0.07f, 0}, 0.165f},
-                         {{0.49f, 0.09f, 0}, 0.07f}};
+const Station trunk[] = {{{-0.60f, 0.03f, 0}, 0.05f},  {{-0.56f, 0.02f, 0}, 0.13f},  {{-0.46f, 0.02f, 0}, 0.205f},
+                         {{-0.30f, 0.01f, 0}, 0.225f}, {{-0.06f, -0.03f, 0}, 0.20f}, {{0.14f, -0.03f, 0}, 0.21f},
+                         {{0.30f, 0.02f, 0}, 0.215f},  {{0.42f, 0.07f, 0}, 0.165f},  {{0.49f, 0.09f, 0}, 0.07f}};
 
 /// A horse is narrower than it is tall.
 Mesh slim(Mesh mesh, float width) { return placed(std::move(mesh), glm::scale(glm::mat4(1), glm::vec3(1, 1, width))); }
@@ -40,17 +40,27 @@ void addLegs(Model& model, const HorsePaints& paints) {
         const Station hoof[] = {{ankle.position - 0.01f * along, 0.040f}, {ankle.position + 0.03f * along, 0.052f}, {ankle.position + 0.085f * along, 0.060f}};
         model.add(paints.hoof, tube(hoof, 12));
     };
-    leg(0.105f, {{{0.32f, 0.00f, 0}, 0.12f}, {{0.40f, -0.16f, 0}, 0.085f}, {{0.56f, -0.25f, 0}, 0.058f}, {{0.55f, -0.38f, 0}, 0.038f}, {{0.47f, -0.50f, 0}, 0.040f}});
-    leg(-0.105f, {{{0.32f, 0.00f, 0}, 0.12f}, {{0.42f, -0.18f, 0}, 0.085f}, {{0.52f, -0.36f, 0}, 0.055f}, {{0.60f, -0.50f, 0}, 0.037f}, {{0.66f, -0.60f, 0}, 0.040f}});
-    leg(0.11f, {{{-0.42f, 0.02f, 0}, 0.16f}, {{-0.40f, -0.18f, 0}, 0.115f}, {{-0.40f, -0.34f, 0}, 0.068f}, {{-0.56f, -0.48f, 0}, 0.045f}, {{-0.66f, -0.64f, 0}, 0.040f}});
-    leg(-0.11f, {{{-0.42f, 0.02f, 0}, 0.16f}, {{-0.34f, -0.18f, 0}, 0.115f}, {{-0.27f, -0.34f, 0}, 0.068f}, {{-0.38f, -0.50f, 0}, 0.045f}, {{-0.44f, -0.66f, 0}, 0.040f}});
+    leg(0.105f,
+        {{{0.32f, 0.00f, 0}, 0.12f}, {{0.40f, -0.16f, 0}, 0.085f}, {{0.56f, -0.25f, 0}, 0.058f}, {{0.55f, -0.38f, 0}, 0.038f}, {{0.47f, -0.50f, 0}, 0.040f}});
+    leg(-0.105f,
+        {{{0.32f, 0.00f, 0}, 0.12f}, {{0.42f, -0.18f, 0}, 0.085f}, {{0.52f, -0.36f, 0}, 0.055f}, {{0.60f, -0.50f, 0}, 0.037f}, {{0.66f, -0.60f, 0}, 0.040f}});
+    leg(0.11f, {{{-0.42f, 0.02f, 0}, 0.16f},
+                {{-0.40f, -0.18f, 0}, 0.115f},
+                {{-0.40f, -0.34f, 0}, 0.068f},
+                {{-0.56f, -0.48f, 0}, 0.045f},
+                {{-0.66f, -0.64f, 0}, 0.040f}});
+    leg(-0.11f, {{{-0.42f, 0.02f, 0}, 0.16f},
+                 {{-0.34f, -0.18f, 0}, 0.115f},
+                 {{-0.27f, -0.34f, 0}, 0.068f},
+                 {{-0.38f, -0.50f, 0}, 0.045f},
+                 {{-0.44f, -0.66f, 0}, 0.040f}});
 }
 
 void addHead(Model& model, const HorsePaints& paints) {
-    const Station neck[] = {{{0.26f, 0.04f, 0}, 0.20f}, {{0.38f, 0.20f, 0}, 0.165f}, {{0.49f, 0.38f, 0}, 0.120f}, {{0.56f, 0.53f, 0}, 0.095f},
-                            {{0.61f, 0.62f, 0}, 0.075f}, {{0.66f, 0.66f, 0}, 0.03f}};
+    const Station neck[] = {{{0.26f, 0.04f, 0}, 0.20f},  {{0.38f, 0.20f, 0}, 0.165f}, {{0.49f, 0.38f, 0}, 0.120f},
+                            {{0.56f, 0.53f, 0}, 0.095f}, {{0.61f, 0.62f, 0}, 0.075f}, {{0.66f, 0.66f, 0}, 0.03f}};
     model.add(paints.coat, slim(limb(neck, 5, 18), 0.72f));
-    const Station skull[] = {{{0.54f, 0.61f, 0}, 0.05f}, {{0.58f, 0.60f, 0}, 0.088f}, {{0.66f, 0.56f, 0}, 0.100f}, {{0.76f, 0.46f, 0}, 0.074f},
+    const Station skull[] = {{{0.54f, 0.61f, 0}, 0.05f},  {{0.58f, 0.60f, 0}, 0.088f}, {{0.66f, 0.56f, 0}, 0.100f}, {{0.76f, 0.46f, 0}, 0.074f},
                              {{0.84f, 0.37f, 0}, 0.060f}, {{0.89f, 0.32f, 0}, 0.058f}, {{0.92f, 0.29f, 0}, 0.035f}};
     model.add(paints.coat, slim(limb(skull, 5, 16), 0.74f));
     for (float side : {-1.0f, 1.0f}) {
@@ -73,7 +83,8 @@ void addHead(Model& model, const HorsePaints& paints) {
 void addHair(Model& model, const HorsePaints& paints) {
     for (int i = 0; i < 9; ++i) {
         const float t = float(i) / 8;
-        const glm::vec3 root = glm::mix(glm::vec3(0.60f, 0.70f, 0), glm::vec3(0.20f, 0.24f, 0), t) + glm::vec3(-0.02f * std::sin(3.1f * t), 0.04f * std::sin(3.1f * t), 0);
+        const glm::vec3 root =
+            glm::mix(glm::vec3(0.60f, 0.70f, 0), glm::vec3(0.20f, 0.24f, 0), t) + glm::vec3(-0.02f * std::sin(3.1f * t), 0.04f * std::sin(3.1f * t), 0);
         for (float side : {-1.0f, 1.0f}) {
             const float wave = (i % 2 ? 0.03f : -0.01f);
             const Station lock[] = {{root, 0.03f},
@@ -86,8 +97,11 @@ void addHair(Model& model, const HorsePaints& paints) {
     const Station forelock[] = {{{0.59f, 0.69f, 0}, 0.025f}, {{0.66f, 0.68f, 0}, 0.028f}, {{0.72f, 0.60f, 0}, 0.006f}};
     model.add(paints.mane, limb(forelock, 3, 7));
     for (float side : {-0.035f, 0.0f, 0.035f}) {
-        const Station tail[] = {{{-0.55f, 0.10f, 0}, 0.035f}, {{-0.66f, 0.15f, side}, 0.055f}, {{-0.78f, 0.02f, 1.6f * side}, 0.065f},
-                                {{-0.82f, -0.20f + side, 2 * side}, 0.052f}, {{-0.90f + side, -0.40f, 1.5f * side}, 0.008f}};
+        const Station tail[] = {{{-0.55f, 0.10f, 0}, 0.035f},
+                                {{-0.66f, 0.15f, side}, 0.055f},
+                                {{-0.78f, 0.02f, 1.6f * side}, 0.065f},
+                                {{-0.82f, -0.20f + side, 2 * side}, 0.052f},
+                                {{-0.90f + side, -0.40f, 1.5f * side}, 0.008f}};
         model.add(paints.mane, limb(tail, 4, 9));
     }
 }
@@ -103,7 +117,7 @@ void addHarness(Model& model, const HorsePaints& paints) {
         return glm::vec3(p.x - 0.09f, p.y + 0.185f + 0.065f * x * x - 0.09f * z * z, p.z * 0.95f);
     });
     model.add(paints.saddle, seat);
-    const Station breast[] = {{{0.12f, -0.05f, 0.19f}, 0.014f}, {{0.36f, 0.0f, 0.175f}, 0.014f}, {{0.50f, 0.03f, 0.06f}, 0.014f},
+    const Station breast[] = {{{0.12f, -0.05f, 0.19f}, 0.014f}, {{0.36f, 0.0f, 0.175f}, 0.014f},  {{0.50f, 0.03f, 0.06f}, 0.014f},
                               {{0.50f, 0.03f, -0.06f}, 0.014f}, {{0.36f, 0.0f, -0.175f}, 0.014f}, {{0.12f, -0.05f, -0.19f}, 0.014f}};
     model.add(paints.gilt, limb(breast, 4, 6));
     for (float side : {-1.0f, 1.0f}) {

@@ -30,9 +30,9 @@ void addFestoon(Model& model, int cable, int glow, const Festoon& festoon) {
 Model streetLamp(const std::string& name, int iron, int glow, float height, bool arms) {
     Model lamp{name, {}};
     const float h = height;
-    const glm::vec2 control[] = {{0.035f, h},     {0.05f, h - 0.05f}, {0.032f, h - 0.12f}, {0.036f, h * 0.6f}, {0.05f, h * 0.36f}, {0.075f, h * 0.34f},
-                                 {0.05f, h * 0.31f}, {0.062f, 0.7f},  {0.12f, 0.6f},       {0.105f, 0.3f},     {0.17f, 0.2f},      {0.19f, 0.02f},
-                                 {0.19f, 0}};
+    const glm::vec2 control[] = {{0.035f, h},         {0.05f, h - 0.05f}, {0.032f, h - 0.12f}, {0.036f, h * 0.6f}, {0.05f, h * 0.36f},
+                                 {0.075f, h * 0.34f}, {0.05f, h * 0.31f}, {0.062f, 0.7f},      {0.12f, 0.6f},      {0.105f, 0.3f},
+                                 {0.17f, 0.2f},       {0.19f, 0.02f},     {0.19f, 0}};
     lamp.add(iron, turned(smoothCurve(control, 3), 12, 50));
     const float radius = 0.055f * h;
     const auto globe = [&](const glm::vec3& foot) {
@@ -46,7 +46,9 @@ Model streetLamp(const std::string& name, int iron, int glow, float height, bool
     if (arms)
         for (float side : {-1.0f, 1.0f}) {
             const float reach = 0.13f * h;
-            const Station arm[] = {{{0, h * 0.80f, 0}, 0.03f}, {{side * reach * 0.6f, h * 0.79f, 0}, 0.024f}, {{side * reach, h * 0.83f, 0}, 0.02f},
+            const Station arm[] = {{{0, h * 0.80f, 0}, 0.03f},
+                                   {{side * reach * 0.6f, h * 0.79f, 0}, 0.024f},
+                                   {{side * reach, h * 0.83f, 0}, 0.02f},
                                    {{side * reach, h * 0.855f, 0}, 0.02f}};
             lamp.add(iron, limb(arm, 4, 8));
             globe({side * reach, h * 0.87f, 0});

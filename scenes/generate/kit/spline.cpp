@@ -17,8 +17,7 @@ std::vector<Station> spline(std::span<const Station> stations, int steps) {
         for (int k = 0; k < steps; ++k) {
             const float t = float(k) / float(steps);
             const glm::vec4 a = at(i - 1), b = at(i), c = at(i + 1), d = at(i + 2);
-            const glm::vec4 p =
-                0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t + (3.0f * b - a - 3.0f * c + d) * t * t * t);
+            const glm::vec4 p = 0.5f * (2.0f * b + (c - a) * t + (2.0f * a - 5.0f * b + 4.0f * c - d) * t * t + (3.0f * b - a - 3.0f * c + d) * t * t * t);
             curve.push_back({glm::vec3(p), std::max(p.w, 1e-3f)});
         }
     curve.push_back(stations.back());

@@ -92,12 +92,10 @@ void addCanopy(Model& model, const Paints& paint) {
         board(i % 2 ? paint.teal : paint.red, placed(roundedBox({width - 0.14f, 0.48f, 0.06f}, 0.02f, 2), {0, 0, 0.015f}));
         board(paint.gilt, placed(bent(sphere(24, 12), [](const glm::vec3& p) { return p * glm::vec3(0.40f, 0.20f, 0.05f); }), {0, 0, 0.03f}));
         board(paint.mirror, placed(bent(sphere(24, 12), [](const glm::vec3& p) { return p * glm::vec3(0.34f, 0.155f, 0.045f); }), {0, 0, 0.05f}));
-        board(paint.gilt, placed(bent(sphere(20, 10), [](const glm::vec3& p) {
-                                     return p * glm::vec3(0.30f * (1 - 0.25f * p.y), 0.24f, 0.04f);
-                                 }), {0, 0.36f, 0}));
+        board(paint.gilt,
+              placed(bent(sphere(20, 10), [](const glm::vec3& p) { return p * glm::vec3(0.30f * (1 - 0.25f * p.y), 0.24f, 0.04f); }), {0, 0.36f, 0}));
         for (float side : {-1.0f, 1.0f})
-            board(paint.cream, placed(bent(sphere(12, 8), [](const glm::vec3& p) { return p * glm::vec3(0.10f, 0.14f, 0.03f); }),
-                                      {side * 0.5f, 0.28f, 0.01f}));
+            board(paint.cream, placed(bent(sphere(12, 8), [](const glm::vec3& p) { return p * glm::vec3(0.10f, 0.14f, 0.03f); }), {side * 0.5f, 0.28f, 0.01f}));
         board(paint.red, grid(16, 4, [&](float u, float v) {
                   const float scallop = 0.10f + 0.14f * std::sin(std::numbers::pi_v<float> * u);
                   return glm::vec3((u - 0.5f) * width, -0.29f - v * scallop, 0.012f + 0.015f * std::sin(6 * tau * u) * v);
@@ -109,7 +107,8 @@ void addCanopy(Model& model, const Paints& paint) {
         }
         board(paint.gilt, tube(fringe, 6));
     }
-    const glm::vec2 finial[] = {{0, 0.85f}, {0.04f, 0.75f}, {0.03f, 0.6f}, {0.16f, 0.45f}, {0.16f, 0.38f}, {0.06f, 0.25f}, {0.12f, 0.12f}, {0.42f, 0.02f}, {0.45f, -0.1f}};
+    const glm::vec2 finial[] = {{0, 0.85f},     {0.04f, 0.75f}, {0.03f, 0.6f},  {0.16f, 0.45f}, {0.16f, 0.38f},
+                                {0.06f, 0.25f}, {0.12f, 0.12f}, {0.42f, 0.02f}, {0.45f, -0.1f}};
     model.add(paint.gilt, placed(turned(smoothCurve(finial, 4), 20), glm::vec3(0, roof(0.3f), 0)));
 }
 
@@ -118,7 +117,8 @@ void addPlatform(Model& model, const Paints& paint) {
     Mesh top = grid(96, 6, [](float u, float v) { return around(glm::mix(drum, 4.45f, v), deck, tau * u); });
     for (Vertex& v : top.vertices) v.uv = glm::vec2(v.position.x, v.position.z) / panelSize;
     model.add(paint.boards, top);
-    const glm::vec2 edge[] = {{4.40f, deck + 0.002f}, {4.5f, deck + 0.002f}, {4.53f, deck - 0.02f}, {4.52f, deck - 0.08f}, {4.46f, deck - 0.12f}, {4.44f, deck - 0.26f}};
+    const glm::vec2 edge[] = {{4.40f, deck + 0.002f}, {4.5f, deck + 0.002f}, {4.53f, deck - 0.02f},
+                              {4.52f, deck - 0.08f},  {4.46f, deck - 0.12f}, {4.44f, deck - 0.26f}};
     model.add(paint.gilt, turned(edge, 128));
     constexpr int sides = 12;
     for (int i = 0; i < sides; ++i) {
@@ -127,7 +127,8 @@ void addPlatform(Model& model, const Paints& paint) {
         put(paint.cream, roundedBox({width, eaves - deck + 0.4f, 0.06f}, 0.01f), (eaves - deck) / 2);
         put(paint.gilt, roundedBox({width - 0.10f, 1.95f, 0.07f}, 0.02f, 2), 1.75f);
         put(i % 2 ? paint.mirror : paint.teal, placed(roundedBox({width - 0.18f, 1.85f, 0.06f}, 0.01f), {0, 0, 0.012f}), 1.75f);
-        if (i % 2 == 0) put(paint.gilt, placed(bent(sphere(16, 10), [](const glm::vec3& p) { return p * glm::vec3(0.13f, 0.34f, 0.03f); }), {0, 0, 0.04f}), 1.75f);
+        if (i % 2 == 0)
+            put(paint.gilt, placed(bent(sphere(16, 10), [](const glm::vec3& p) { return p * glm::vec3(0.13f, 0.34f, 0.03f); }), {0, 0, 0.04f}), 1.75f);
         put(i % 2 ? paint.red : paint.teal, placed(roundedBox({width - 0.12f, 0.55f, 0.06f}, 0.015f), {0, 0, 0.015f}), 0.40f);
     }
 }
@@ -147,7 +148,9 @@ void addTurning(Glb& glb, const Paints& paint, std::vector<int>& turning) {
         for (int k = 0; k < 6; ++k) {
             // Along the boards' lower and upper edges, on the chord between corners.
             const float middle = corner + tau / gores / 2, along = (float(k) / 6 + 1.0f / 12 - 0.5f) * 2 * rim * std::tan(tau / gores / 2);
-            const auto at = [&](float height) { return around(rim, height, middle) + along * glm::vec3(std::cos(middle), 0, -std::sin(middle)) + around(0.07f, 0, middle); };
+            const auto at = [&](float height) {
+                return around(rim, height, middle) + along * glm::vec3(std::cos(middle), 0, -std::sin(middle)) + around(0.07f, 0, middle);
+            };
             lamp(0, at(eaves - 0.005f), 0.034f);
             lamp(1, at(eaves + 0.565f), 0.034f);
         }
@@ -170,10 +173,15 @@ void addHorses(Glb& glb, const Paints& paint) {
     const int coats[] = {lacquer("grey", {0.74f, 0.70f, 0.63f}), lacquer("black", {0.022f, 0.018f, 0.018f}), lacquer("chestnut", {0.30f, 0.085f, 0.025f}),
                          lacquer("palomino", {0.62f, 0.39f, 0.15f})};
     const int cloths[] = {lacquer("blue", {0.025f, 0.075f, 0.30f}), paint.red, paint.teal, lacquer("plum", {0.20f, 0.02f, 0.14f})};
-    const int leather = lacquer("leather", {0.17f, 0.045f, 0.018f}), pale = lacquer("pale_mane", {0.82f, 0.74f, 0.58f}), dark = lacquer("dark_mane", {0.03f, 0.02f, 0.015f});
+    const int leather = lacquer("leather", {0.17f, 0.045f, 0.018f}), pale = lacquer("pale_mane", {0.82f, 0.74f, 0.58f}),
+              dark = lacquer("dark_mane", {0.03f, 0.02f, 0.015f});
     std::vector<Model> breeds;
     for (int i = 0; i < 4; ++i)
-        breeds.push_back(horse("horse_" + std::to_string(i), {coats[i], i == 0 || i == 3 ? pale : i == 1 ? paint.gilt : dark, paint.gilt, leather, cloths[i], paint.gilt, dark}));
+        breeds.push_back(horse("horse_" + std::to_string(i), {coats[i],
+                                                              i == 0 || i == 3 ? pale
+                                                              : i == 1         ? paint.gilt
+                                                                               : dark,
+                                                              paint.gilt, leather, cloths[i], paint.gilt, dark}));
 
     struct Ring {
         int count;
@@ -196,7 +204,8 @@ void addHorses(Glb& glb, const Paints& paint) {
             const float start = 360.0f * (float(i) + (ring.count == 8 ? 0.3f : 0.0f)) / float(ring.count), phase = 0.37f * float(i * 3 % 8);
             const auto turn = [&](float t) { return asVector(turnY(start + 360 * t)); };
             constexpr int pieces = int(secondsPerTurn * 24);
-            const int rider = glb.addNode("horse_" + std::to_string(number), meshes[size_t((i * 3 + (ring.count == 8 ? 1 : 0)) % 4)], {.rotation = turnY(start)});
+            const int rider =
+                glb.addNode("horse_" + std::to_string(number), meshes[size_t((i * 3 + (ring.count == 8 ? 1 : 0)) % 4)], {.rotation = turnY(start)});
             animate(glb, rider, Motion::rotation, pieces, turn);
             animate(glb, rider, Motion::translation, pieces, [&](float t) { return glm::vec4(0, 0.22f * std::sin(tau * (3 * t + phase)), 0, 0); });
             animate(glb, glb.addNode("pole_" + std::to_string(number), poleMesh, {.rotation = turnY(start)}), Motion::rotation, pieces, turn);
@@ -225,8 +234,10 @@ void addWheel(Glb& glb, const Paints& paint) {
     const auto turn = [&](float t) { return asVector(glm::angleAxis(tau * t / spokes * 5, glm::vec3(0, 0, 1))); };
     const glm::quat tip = turnY(22);
     for (Model* part : {&frame, &lit})
-        animate(glb, glb.addNode(*part, {.translation = hub, .rotation = tip}), Motion::rotation, pieces,
-                [&](float t) { const glm::vec4 q = turn(t); return asVector(tip * glm::quat(q.w, q.x, q.y, q.z)); });
+        animate(glb, glb.addNode(*part, {.translation = hub, .rotation = tip}), Motion::rotation, pieces, [&](float t) {
+            const glm::vec4 q = turn(t);
+            return asVector(tip * glm::quat(q.w, q.x, q.y, q.z));
+        });
 
     Model car{"gondola", {}};
     car.add(paint.red, placed(roundedBox({0.95f, 0.55f, 0.85f}, 0.12f, 3), {0, -1.05f, 0}));
@@ -264,8 +275,7 @@ void addSquare(Glb& glb, const Paints& paint) {
 
     const int lamp = glb.addMesh(streetLamp("street_lamp", paint.iron, paint.warm, 3.9f, true));
     const glm::vec3 posts[] = {{-7.4f, 0, 3.2f}, {7.6f, 0, 2.2f}, {8.6f, 0, -6.5f}, {-8.2f, 0, -6.0f}, {0.6f, 0, -11.5f}};
-    for (int i = 0; i < 5; ++i)
-        glb.addNode("street_lamp_" + std::to_string(i), lamp, {.translation = posts[i], .rotation = turnY(25 + 50 * float(i))});
+    for (int i = 0; i < 5; ++i) glb.addNode("street_lamp_" + std::to_string(i), lamp, {.translation = posts[i], .rotation = turnY(25 + 50 * float(i))});
     Model strings{"festoons", {}};
     const glm::vec3 top(0, 3.75f, 0);
     const int order[] = {0, 3, 4, 2, 1};
@@ -289,8 +299,7 @@ Glb makeCarousel() {
     const Paints paint = addPaints(glb);
     std::vector<int> turning;
     addTurning(glb, paint, turning);
-    for (int node : turning)
-        animate(glb, node, Motion::rotation, int(secondsPerTurn * 24), [](float t) { return asVector(turnY(360 * t)); });
+    for (int node : turning) animate(glb, node, Motion::rotation, int(secondsPerTurn * 24), [](float t) { return asVector(turnY(360 * t)); });
     addHorses(glb, paint);
     addWheel(glb, paint);
     addSquare(glb, paint);
