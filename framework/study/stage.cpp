@@ -6,11 +6,13 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
+#include <framework/study/pixel_filter.h>
 #include <framework/study/stage.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace lodestir {
 namespace {
@@ -118,11 +120,20 @@ void Stage::check() {
             }
         }
     };
+    std::set<std::string> referenceFilms;
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
-        attempt([&] { samplesParameter(build(study_.reference, {}, scene, 0).graph, study_.reference.where); });
+        attempt([&] {
+            const StagedGraph reference = build(study_.reference, {}, scene, 0);
+            samplesParameter(reference.graph, study_.reference.where);
+            referenceFilms = filmsOf(reference.graph, reference.port);
+        });
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         for (const Technique& technique : study_.techniques)
-            for (const auto& knobs : combinations(technique)) attempt([&] { build(technique.graph, knobs, scene, study_.seeds.front()); });
+            for (const auto& knobs : combinations(technique))
+                attempt([&] {
+                    const StagedGraph staged = build(technique.graph, knobs, scene, study_.seeds.front());
+                    expectSameFilter(study_, technique, filmsOf(staged.graph, staged.port), referenceFilms);
+                });
     problems.raise();
 }
 

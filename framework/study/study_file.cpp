@@ -250,6 +250,7 @@ private:
                 Technique technique{.name = name};
                 readGraph(fields, technique.graph);
                 if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
+                attempt([&] { technique.otherFilter = readFlag(fields.find("otherFilter"), "\"otherFilter\""); });
                 if (study_.kind == StudyKind::error) {
                     if (const Json* clear = fields.find("clear"))
                         attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });

@@ -38,6 +38,7 @@ struct Technique {
     std::vector<int> clear;    ///< frames after the event before which history is made void
     bool control = false;    ///< of an ensemble: known to be unbiased, so that blaming it blames the study
     bool planted = false;    ///< of an ensemble: known to be biased, to see it caught
+    bool otherFilter = false;  ///< it may have another pixel filter than its reference
 };
 
 struct StudyScene {
