@@ -5,6 +5,8 @@
 
 #include <framework/study/stage.h>
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 namespace lodestir::test {
@@ -34,6 +36,70 @@ TEST(Studies, Start) {
     const std::vector<Path> files = studiesOfTheTree();
     EXPECT_GT(files.size(), 10u);
     for (const Path& file : files) EXPECT_EQ(complaintOf(file), "") << file;
+}
+
+/// The graphs of a study's techniques on its first scene.
+struct StudyGraphs {
+    const Study study;
+    Stage stage;
+    std::vector<Graph> graphs;
+
+    explicit StudyGraphs(const char* file) : study(loadStudy(sourceFolder / "studies" / file)), stage(study, {}) {
+        for (const Technique& technique : study.techniques) graphs.push_back(stage.build(technique.graph, {}, 0, 1).graph);
+    }
+};
+
+/// Passes of a graph by name, with every default; what is said of criteria that are not asked left out.
+nlohmann::json passesOf(const Graph& graph) {
+    nlohmann::json passes = nlohmann::json::parse(graph.resolved().dump(-1))["passes"];  // sorted by name
+    nlohmann::json& initial = passes["initial"]["set"];
+    if (initial["criteria"] == "footprint")
+        for (const char* name : {"distance", "distanceShare"}) initial.erase(name);
+    return passes;
+}
+
+// If this fails, a row of the table shows more than one technique, or its end is not the graph that others are judged by.
+TEST(Table1, LeadsFrom2022ToTheEnhancedGraphByOneTechniqueARow) {
+    const StudyGraphs table("restir_pt_enhanced/table1.json");
+    Renderer renderer;
+    const auto expectSame = [&](const Graph& row, const char* file, const GraphOptions& options) {
+        EXPECT_EQ(nlohmann::json::diff(passesOf(renderer.build(sourceFolder / "graphs" / file, options)), passesOf(row)).dump(), "[]") << file;
+    };
+    expectSame(table.graphs.front(), "restir_pt_2022.json", {});
+    expectSame(table.graphs.back(), "restir_pt_enhanced.json",
+               {.set = {{"hits.film", Json("centre")}, {"spatial.compaction", Json(true)}}, .variant = "duplication map"});
+    for (std::size_t row = 1; row < table.graphs.size(); ++row)
+        EXPECT_NE(passesOf(table.graphs[row]), passesOf(table.graphs[row - 1])) << "row " << row << " shows nothing new";
+}
+
+bool wired(const Graph& graph, const char* pass, const char* port) {
+    const GraphNode& node = graph.nodes[std::size_t(graph.find(pass))];
+    for (std::size_t i = 0; i < node.inputs.size(); ++i)
+        if (node.pass->ports[i]->name == port) return node.inputs[i].has_value();
+    throw Error(std::string("no port ") + port);
+}
+std::string typeOf(const Graph& graph, const char* pass) { return graph.nodes[std::size_t(graph.find(pass))].type; }
+std::string valueOf(const Graph& graph, const char* pass, const char* name) {
+    const auto& parameters = graph.nodes[std::size_t(graph.find(pass))].pass->parameters;
+    const Parameter& parameter = **std::ranges::find(parameters, name, &Parameter::name);
+    return writeValue(parameter, parameter.value).dump(-1);
+}
+
+// If this fails, two techniques are never judged together, or one never without the other.
+TEST(Combinations, HoldEveryPairOfTechniques) {
+    const StudyGraphs study("restir_pt_enhanced/combinations.json");
+    EXPECT_EQ(study.graphs.size(), 8u);
+    std::vector<std::vector<std::string>> rows;
+    for (const Graph& g : study.graphs)
+        rows.push_back({typeOf(g, "spatial"), typeOf(g, "temporal"), valueOf(g, "initial", "criteria"), valueOf(g, "initial", "forcedNee"),
+                        valueOf(g, "initial", "roulette"), valueOf(g, "initial", "camera"), valueOf(g, "spatial", "rounds"),
+                        std::to_string(wired(g, "initial", "tiles")), std::to_string(wired(g, "shade", "color"))});
+    for (std::size_t a = 0; a < rows[0].size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            std::set<std::pair<std::string, std::string>> pairs;
+            for (const auto& row : rows) pairs.insert({row[a], row[b]});
+            EXPECT_EQ(pairs.size(), 4u) << rows[0][a] << " with " << rows[0][b];
+        }
 }
 
 class FilterTest : public FolderTest {

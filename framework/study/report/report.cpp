@@ -49,7 +49,8 @@ public:
             {"error_vs_time", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, true); }},
             {"error_vs_rays", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, false); }},
             {"error_vs_frame", [](const Report& r, const Measure& m, const Cells& c) { return r.measuresFrames() ? r.errorByFrame(m, c, false) : ""; }},
-            {"time_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.timeByPass(c); }, true},
+            {"time_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.costByPass(c, true); }, true},
+            {"rays_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.costByPass(c, false); }, true},
             {"stability", [](const Report& r, const Measure& m,
                              const Cells& c) { return r.measuresFrames() && scaleOf(m.metric).fromZero ? r.errorByFrame(m, c, true) : ""; }},
         };
@@ -227,16 +228,16 @@ private:
         return drawLines(chart);
     }
 
-    std::string timeByPass(const Cells& cells) const {
+    std::string costByPass(const Cells& cells, bool time) const {
         std::vector<Bar> bars;
         for (const Cell* cell : cells) {
             if (cell->offset != shown_) continue;
             Bar bar{.name = labelOf(*cell)};
-            for (const PassSummary& pass : cell->passes) bar.parts.push_back({pass.name, pass.milliseconds});
+            for (const PassSummary& pass : cell->passes) bar.parts.push_back({pass.name, time ? pass.milliseconds : pass.rays / pixels_});
             bars.push_back(std::move(bar));
         }
-        return drawBars(study_.measure.size() > 1 ? fmt::format("Time by pass, frame {}", shown_) : "Time by pass",
-                        "mean time, ms (" + device_ + ")", bars);
+        return drawBars(std::string(time ? "Time by pass" : "Rays by pass") + (measuresFrames() ? fmt::format(", frame {}", shown_) : ""),
+                        time ? "mean time, ms (" + device_ + ")" : "rays a pixel", bars);
     }
 
     const Study& study_;
