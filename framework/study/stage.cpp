@@ -87,7 +87,7 @@ Stage::~Stage() = default;
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
     GraphOptions options{
         .scene = std::filesystem::absolute(study_.scenes[scene].file),
-        .size = study_.size,
+        .size = study_.scenes[scene].size,
         .seed = seed,
         .set = choice.set,
         .variant = choice.variant,
@@ -100,7 +100,7 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
     const Where& where = choice.port.empty() ? choice.where : choice.portWhere;
     if (port.type.kind != PortType::Kind::image)
         throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
-    if (sizeOf(staged.graph, staged.port.node, staged.port.port, study_.size) != study_.size)
+    if (sizeOf(staged.graph, staged.port.node, staged.port.port, options.size.value()) != *options.size)
         throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
                     "name another with \"port\"");
     return staged;
@@ -158,7 +158,7 @@ std::string Stage::nameOf(const StudyRun& run) {
     Hash hash;
     hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
     hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
-    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_, study_.scenes[run.scene])));
+    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
@@ -212,7 +212,7 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
         const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
         if (isFile(file)) return readExr(file);
         if (!runner) {
-            setParameter(staged.graph, samplesName, Json(samplesAFrame()));
+            setParameter(staged.graph, samplesName, Json(samplesAFrame(staged.graph)));
             runner = makeRunner(staged, sceneIndex);
         }
         ImageData image = renderHalf(staged, *runner, samplesName, frame, index);
@@ -225,19 +225,20 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
 
 Seen Stage::see(std::size_t index) { return seeFrames(renderer_, study_, study_.scenes[index], scene(index)); }
 
-int Stage::samplesAFrame() const {
-    const auto pixels = std::uint64_t(study_.size.x) * study_.size.y;
+int Stage::samplesAFrame(const Graph& graph) const {
+    const auto pixels = std::uint64_t(graph.description.size.x) * graph.description.size.y;
     return std::min(study_.referenceSamples / 2, int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024)));
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
 ImageData Stage::renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half) {
     const int total = study_.referenceSamples / 2;
-    std::vector<double> sum(std::size_t(study_.size.x) * study_.size.y * 3);
+    const glm::uvec2 size = staged.graph.description.size;
+    std::vector<double> sum(std::size_t(size.x) * size.y * 3);
     std::uint32_t seed = firstReferenceSeed + half * seedsPerHalf;
     log::Progress progress(fmt::format("reference of frame {}, half {}", frame, half == 0 ? "A" : "B"), std::size_t(total));
     for (int done = 0; done < total; ++seed) {
-        const int samples = std::min(samplesAFrame(), total - done);
+        const int samples = std::min(samplesAFrame(staged.graph), total - done);
         setParameter(staged.graph, samplesName, Json(samples));
         staged.graph.description.seed = seed;
         runner.reset();
@@ -248,7 +249,7 @@ ImageData Stage::renderHalf(StagedGraph& staged, Runner& runner, const std::stri
         done += samples;
         progress.advance(std::size_t(samples));
     }
-    ImageData result = makeImage(int(study_.size.x), int(study_.size.y), 3);
+    ImageData result = makeImage(int(size.x), int(size.y), 3);
     std::ranges::transform(sum, result.values.begin(), [](double value) { return float(value); });
     return result;
 }

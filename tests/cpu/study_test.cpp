@@ -62,7 +62,7 @@ TEST_F(StudyTest, ReadsTheContract) {
     const Study study = loadStudy(write(good));
     ASSERT_EQ(study.scenes.size(), 2u);
     EXPECT_EQ(study.scenes[1].name, "hall");
-    EXPECT_EQ(study.size, glm::uvec2(32, 18));
+    EXPECT_EQ(study.scenes[1].size, glm::uvec2(32, 18));
     EXPECT_EQ(study.seeds, (std::vector<std::uint32_t>{1, 2, 3}));
     EXPECT_EQ(study.warmup, 4);
     EXPECT_EQ(study.event, 10);
@@ -76,6 +76,28 @@ TEST_F(StudyTest, ReadsTheContract) {
     EXPECT_EQ(names, (std::vector<std::string>{"mse.switched", "mse", "mse.switched.finest", "mse.finest"}));
     EXPECT_EQ(study.techniques[1].graph.set.at(0).name, "a.spp");
     EXPECT_EQ(study.techniques[1].graph.graph, folder / "graph.json");
+}
+
+// If this fails, a row of one size is told as one of another.
+TEST_F(StudyTest, ScenesAreTakenAtEachSize) {
+    std::string text = good;
+    text.replace(text.find("[32, 18]"), 8, "[[32, 18], [64, 36]]");
+    const Study study = loadStudy(write(text));
+    ASSERT_EQ(study.scenes.size(), 4u);
+    EXPECT_EQ(study.scenes[1].name, "box, 64x36");
+    EXPECT_EQ(study.scenes[1].file, study.scenes[0].file);
+    EXPECT_EQ(study.scenes[1].pixels(), 64 * 36);
+    EXPECT_EQ(study.scenes[2].name, "hall, 32x18");
+    EXPECT_EQ(expandRuns(study).size(), 2 * expandRuns(loadStudy(write(good))).size());
+    const auto said = [&](const char* sizes) {
+        std::string wrong = good;
+        wrong.replace(wrong.find("[32, 18]"), 8, sizes);
+        const std::vector<std::string> lines = complaints(wrong);
+        return lines.empty() ? std::string() : lines.front().substr(lines.front().find(": ") + 2);
+    };
+    EXPECT_EQ(said("[[32, 18], [32, 18]]"), "the size 32x18 is given twice");
+    EXPECT_EQ(said("[[32, 18], [32]]"), "a size must be [width, height], in pixels");
+    EXPECT_EQ(said("[]"), "a size must be [width, height], in pixels");
 }
 
 TEST_F(StudyTest, TellsAllErrorsAtOnceWithPlaces) {

@@ -58,7 +58,7 @@ private:
             "energy is known to ±{:g} % (95 %), and planted faults that such an interval promises to show are caught at least 95 times in "
             "100. "
             "<b>Inconclusive</b> is a failure, too.",
-            study_.size.x, study_.size.y, study_.seeds.size(), study_.warmup, study_.referenceSamples, batchesOf(study_),
+            study_.sizes.front().x, study_.sizes.front().y, study_.seeds.size(), study_.warmup, study_.referenceSamples, batchesOf(study_),
             escapeHtml(device.empty() ? "no device yet" : device), blockSize, blockSize, 100 * study_.halfWidth);
         html += study_.paired
                     ? " Every technique draws the same seeds: differences between techniques can be taken run by run, and what all of them "
@@ -96,7 +96,7 @@ private:
                 "<td>{:.4g}</td><td>{:.4g}</td><td class=\"reason\">{}</td></tr>\n",
                 escapeHtml(nameOf(*cell)), roleOf(study_.techniques[cell->technique]), r.runs, lodestir::nameOf(r.verdict),
                 lodestir::nameOf(r.verdict), percent(differenceOf(*cell)), 100 * r.halfWidth, r.tests.energyP, r.tests.blockP,
-                cell->milliseconds, cell->rays / (double(study_.size.x) * study_.size.y), escapeHtml(r.reason));
+                cell->milliseconds, cell->rays / study_.scenes[cell->scene].pixels(), escapeHtml(r.reason));
         }
         html += "</table>\n<p class=\"note\">The reference's halves differ by ";
         std::map<int, double> halves;
@@ -208,7 +208,7 @@ std::string convergenceText(const Study& study, const EnsembleSummary& summary, 
             text = fmt::format("  {:<{}} {:>5} {:>10} {:>12} {:>24} {:>22}\n", "RelMSE of luminance", width, "frame", "rays/px", "noise of run", "bias +- 2 sigmas",
                                "|difference| (noise)");
         text += fmt::format("  {:<{}} {:>5} {:>10.4g} {:>12.4g} {:>24} {:>22}\n", labelOf(study, cell), width, cell.offset,
-                            cell.rays / (double(study.size.x) * study.size.y), c.noise,
+                            cell.rays / study.scenes[scene].pixels(), c.noise,
                             std::isnan(c.biasDeviation) ? fmt::format("{:.2g}", c.bias) : fmt::format("{:.2g} +- {:.2g}", c.bias, 2 * c.biasDeviation),
                             fmt::format("{:.2f} % ({:.2f} %)", 100 * c.difference, 100 * c.differenceOfNoise));
     }
