@@ -299,7 +299,8 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
         if (!variants->isObject()) throw Error(variants->where(), "\"variants\" must be an object of merge patches");
         description.variants = keysOf(variants);
         for (const auto& [name, patch] : variants->members())
-            if (name.find(also) != name.npos) throw Error(patch.keyWhere(), "the name of a variant can't hold \" + \"", "it joins names: \"a + b\" is a and then b");
+            if (name.find(also) != name.npos)
+                throw Error(patch.keyWhere(), "the name of a variant can't hold \" + \"", "it joins names: \"a + b\" is a and then b");
     }
     if (options.variant) applyVariants(description.source, *options.variant, options.variantWhere.file.empty() ? Where{file.string()} : options.variantWhere);
     description.source.remove("variants");

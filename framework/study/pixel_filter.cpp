@@ -37,9 +37,12 @@ public:
 private:
     bool isLit(const GraphNode& node) {
         const std::string camera = choiceOf(*node.pass, "camera"), film = choiceOf(*node.pass, "film");
-        if (camera == "path") films.insert("random");  // of initial_sampling: each path has its own place, whatever hits there are
-        else if (!film.empty()) films.insert(film);
-        else return follow(node, false) || follow(node, true);
+        if (camera == "path")
+            films.insert("random");  // of initial_sampling: each path has its own place, whatever hits there are
+        else if (!film.empty())
+            films.insert(film);
+        else
+            return follow(node, false) || follow(node, true);
         return true;
     }
     bool follow(const GraphNode& node, bool hits) {

@@ -85,13 +85,12 @@ Stage::Stage(const Study& study, const RendererOptions& options) : study_(study)
 Stage::~Stage() = default;
 
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
-    GraphOptions options{
-        .scene = std::filesystem::absolute(study_.scenes[scene].file),
-        .size = study_.scenes[scene].size,
-        .seed = seed,
-        .set = choice.set,
-        .variant = choice.variant,
-        .variantWhere = choice.variantWhere};
+    GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
+                         .size = study_.scenes[scene].size,
+                         .seed = seed,
+                         .set = choice.set,
+                         .variant = choice.variant,
+                         .variantWhere = choice.variantWhere};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port =

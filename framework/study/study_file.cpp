@@ -132,7 +132,8 @@ private:
         study_.sizes.clear();
         for (const Json& item : items) {
             const glm::uvec2 size = sizeOf(item);
-            if (std::ranges::find(study_.sizes, size) != study_.sizes.end()) throw Error(item.where(), fmt::format("the size {}x{} is given twice", size.x, size.y));
+            if (std::ranges::find(study_.sizes, size) != study_.sizes.end())
+                throw Error(item.where(), fmt::format("the size {}x{} is given twice", size.x, size.y));
             study_.sizes.push_back(size);
         }
     }

@@ -95,9 +95,11 @@ TEST(Description, AppliesAVariantAsAMergePatch) {
 TEST(Description, VariantsAreAppliedOneAfterTheOther) {
     const auto both = [](const char* first, const char* second) {
         return readDescription(Json::parse(R"({"format": 1, "passes": {"a": {"type": "t", "set": {"x": 0, "y": 0}}}, "show": "a", "variants": {
-            "one": {"passes": {"a": {"set": {"x": 1}}}}, "two": {"passes": {"a": {"set": {"x": 2, "y": 2}}}}}})", "g.json"), "g.json",
-                               {.variant = fmt::format("{} + {}", first, second)})
-            .nodes[0].settings;
+            "one": {"passes": {"a": {"set": {"x": 1}}}}, "two": {"passes": {"a": {"set": {"x": 2, "y": 2}}}}}})",
+                                           "g.json"),
+                               "g.json", {.variant = fmt::format("{} + {}", first, second)})
+            .nodes[0]
+            .settings;
     };
     EXPECT_EQ(both("one", "two")[0].value.asInt(), 2);
     EXPECT_EQ(both("two", "one")[0].value.asInt(), 1);

@@ -115,8 +115,10 @@ protected:
                           {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
                           {"reference", technique(graph("path_tracer.json"), {{"set", {{"trace.film", referenceFilm}}}, {"spp", 64}})},
                           {"techniques", {{"judged", judged}}}};
-        if (kind == StudyKind::ensemble) study.update(OrderedJson{{"kind", "ensemble"}, {"runs", 16}});
-        else study["seeds"] = 1;
+        if (kind == StudyKind::ensemble)
+            study.update(OrderedJson{{"kind", "ensemble"}, {"runs", 16}});
+        else
+            study["seeds"] = 1;
         writeFile(folder / "study.json", study.dump(1));
         return complaintOf(folder / "study.json");
     }
@@ -158,7 +160,8 @@ TEST_F(FilterTest, OneThatDiffersIsToldAndMayBeMeant) {
     const std::string said = complaint(judged, "random");
     EXPECT_TRUE(said.starts_with((folder / "study.json:").string())) << said;
     EXPECT_NE(said.find("technique \"judged\" sees through the centres of pixels, the reference through random places of pixels; give both the same \"film\""),
-              said.npos) << said;
+              said.npos)
+        << said;
     judged["otherFilter"] = true;
     EXPECT_EQ(complaint(judged, "random"), "");
     const OrderedJson varied = technique(graph("path_tracer.json"), {{"vary", {{"trace.film", {"random", "centre"}}}}});

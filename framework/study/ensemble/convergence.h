@@ -9,8 +9,8 @@
 namespace lodestir {
 
 struct Convergence {
-    double noise = 0;  ///< RelMSE of one run by its spread over the runs alone
-    double bias = 0;   ///< RelMSE of the mean over endlessly many runs; unbiased itself, so that it may be below 0 where there is none
+    double noise = 0;              ///< RelMSE of one run by its spread over the runs alone
+    double bias = 0;               ///< RelMSE of the mean over endlessly many runs; unbiased itself, so that it may be below 0 where there is none
     double biasDeviation = 0;      ///< its standard deviation over the runs; NaN for fewer than four chunks
     double difference = 0;         ///< mean over pixels of |mean - reference| / reference
     double differenceOfNoise = 0;  ///< what noise makes of it where there is no bias, if the means are normal

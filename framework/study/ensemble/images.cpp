@@ -58,8 +58,7 @@ EnsembleImage joinImages(std::span<const EnsembleImage> images) {
 ImageData sigmaMap(const EnsembleImage& runs, const EnsembleImage& reference) {
     ImageData map = makeImage(runs.image.width, runs.image.height, 1);
     for (std::size_t p = 0; p < map.pixelCount(); ++p) {
-        const double variance = runs.variance(p) + reference.variance(p),
-                     difference = runs.luminance(p) - reference.luminance(p);
+        const double variance = runs.variance(p) + reference.variance(p), difference = runs.luminance(p) - reference.luminance(p);
         map.values[p] = difference == 0 ? 0.0f : float(difference / std::sqrt(variance));
     }
     return map;

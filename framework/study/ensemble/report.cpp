@@ -94,9 +94,9 @@ private:
                 "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"{}\">{}</td><td>{} <span class=\"pm\">± {:.3f} "
                 "%</span></td><td>{:.2g}</td><td>{:.2g}</td>"
                 "<td>{:.4g}</td><td>{:.4g}</td><td class=\"reason\">{}</td></tr>\n",
-                escapeHtml(nameOf(*cell)), roleOf(study_.techniques[cell->technique]), r.runs, lodestir::nameOf(r.verdict),
-                lodestir::nameOf(r.verdict), percent(differenceOf(*cell)), 100 * r.halfWidth, r.tests.energyP, r.tests.blockP,
-                cell->milliseconds, cell->rays / study_.scenes[cell->scene].pixels(), escapeHtml(r.reason));
+                escapeHtml(nameOf(*cell)), roleOf(study_.techniques[cell->technique]), r.runs, lodestir::nameOf(r.verdict), lodestir::nameOf(r.verdict),
+                percent(differenceOf(*cell)), 100 * r.halfWidth, r.tests.energyP, r.tests.blockP, cell->milliseconds,
+                cell->rays / study_.scenes[cell->scene].pixels(), escapeHtml(r.reason));
         }
         html += "</table>\n<p class=\"note\">The reference's halves differ by ";
         std::map<int, double> halves;
@@ -134,11 +134,8 @@ private:
     }
 
     std::string convergence(const std::vector<const EnsembleCell*>& cells) const {
-        LineChart chart{.title = "Error of the mean over runs",
-                        .xLabel = "time of the frame in all runs, ms",
-                        .yLabel = "RelMSE of luminance",
-                        .logX = true,
-                        .logY = true};
+        LineChart chart{
+            .title = "Error of the mean over runs", .xLabel = "time of the frame in all runs, ms", .yLabel = "RelMSE of luminance", .logX = true, .logY = true};
         std::string rows;
         for (const EnsembleCell* cell : cells) {
             if (!cell->convergence) continue;
@@ -160,9 +157,9 @@ private:
         if (rows.empty()) return {};
         return "<h3>Convergence</h3>\n<div class=\"charts\">\n" + drawLines(chart) +
                "</div>\n<table><tr><th>technique</th><th>noise of a run</th><th>bias</th><th>mean difference</th><th>that of noise</th></tr>\n" + rows +
-               "</table>\n<p class=\"note\">Of luminance, by pixel. Noise of a run and bias are RelMSE: by the spread of the runs, and of the mean over endlessly many "
-               "(± two standard deviations, by leaving out chunks of runs); their sum is the error of one run, and of n runs' mean noise / n + bias. The reference's noise is taken out, so "
-               "that what has no bias may fall below 0. Mean difference: of the mean over all runs from the reference, relative, without its sign; beside it what noise "
+               "</table>\n<p class=\"note\">Of luminance, by pixel; the reference's noise is taken out, so that what has no bias may fall below 0. Noise of a run and "
+               "bias are RelMSE: by the spread of the runs, and of the mean over endlessly many (± two standard deviations, by leaving out chunks of runs). One run's "
+               "error is their sum, that of the mean over n runs noise / n + bias. Mean difference: |mean over all runs - reference| / reference; beside it what noise "
                "alone makes of it.</p>\n";
     }
 
@@ -205,8 +202,8 @@ std::string convergenceText(const Study& study, const EnsembleSummary& summary, 
         if (cell.scene != scene || !cell.convergence) continue;
         const Convergence& c = *cell.convergence;
         if (text.empty())
-            text = fmt::format("  {:<{}} {:>5} {:>10} {:>12} {:>24} {:>22}\n", "RelMSE of luminance", width, "frame", "rays/px", "noise of run", "bias +- 2 sigmas",
-                               "|difference| (noise)");
+            text = fmt::format("  {:<{}} {:>5} {:>10} {:>12} {:>24} {:>22}\n", "RelMSE of luminance", width, "frame", "rays/px", "noise of run",
+                               "bias +- 2 sigmas", "|difference| (noise)");
         text += fmt::format("  {:<{}} {:>5} {:>10.4g} {:>12.4g} {:>24} {:>22}\n", labelOf(study, cell), width, cell.offset,
                             cell.rays / study.scenes[scene].pixels(), c.noise,
                             std::isnan(c.biasDeviation) ? fmt::format("{:.2g}", c.bias) : fmt::format("{:.2g} +- {:.2g}", c.bias, 2 * c.biasDeviation),

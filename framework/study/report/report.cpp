@@ -82,8 +82,7 @@ private:
             "<p class=\"note\">{} pixels, {} seeds, measured on {}. Times are the device's own and medians over seeds (bars: fastest "
             "to slowest), errors are means over "
             "seeds with 95 % intervals of Student's t. References have {} samples a pixel",
-            list(sizes), study_.seeds.size(), escapeHtml(device_.empty() ? "no device yet" : device_),
-            study_.referenceSamples);
+            list(sizes), study_.seeds.size(), escapeHtml(device_.empty() ? "no device yet" : device_), study_.referenceSamples);
         std::vector<std::string> clean, noisy;
         for (const std::string& metric : study_.metrics) (isNoiseFree(metric) ? clean : noisy).push_back(metric);
         html += " in two independent halves A and B";
@@ -140,9 +139,8 @@ private:
         for (const Measure& measure : measuresOf(study_)) html += fmt::format("<th>{}</th>", escapeHtml(measure.name()));
         html += "</tr>\n";
         for (const Cell* cell : cells) {
-            html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>",
-                                escapeHtml(labelOf(*cell)), cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest,
-                                raysOf(*cell));
+            html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>", escapeHtml(labelOf(*cell)),
+                                cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest, raysOf(*cell));
             for (const Measure& measure : measuresOf(study_)) {
                 const auto found = cell->metrics.find(measure.name());
                 html += found != cell->metrics.end() ? fmt::format("<td>{}</td>", estimateHtml(found->second)) : "<td></td>";
@@ -203,8 +201,8 @@ private:
             if (cell->offset != shown || !cell->metrics.contains(metric)) continue;
             const Estimate& e = cell->metrics.at(metric);
             ChartPoint point = pointOf(time ? cell->milliseconds : raysOf(*cell), e,
-                                       fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell),
-                                                   cell->milliseconds, raysOf(*cell), metric, e.mean, e.halfWidth));
+                                       fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell), cell->milliseconds, raysOf(*cell),
+                                                   metric, e.mean, e.halfWidth));
             if (time) point.left = cell->fastest, point.right = cell->slowest;
             seriesNamed(chart.series, curveOf(*cell)).points.push_back(std::move(point));
         }
