@@ -157,10 +157,10 @@ private:
         if (rows.empty()) return {};
         return "<h3>Convergence</h3>\n<div class=\"charts\">\n" + drawLines(chart) +
                "</div>\n<table><tr><th>technique</th><th>noise of a run</th><th>bias</th><th>mean difference</th><th>that of noise</th></tr>\n" + rows +
-               "</table>\n<p class=\"note\">Of luminance, by pixel; the reference's noise is taken out, so that what has no bias may fall below 0. Noise of a run and "
-               "bias are RelMSE: by the spread of the runs, and of the mean over endlessly many (± two standard deviations, by leaving out chunks of runs). One run's "
-               "error is their sum, that of the mean over n runs noise / n + bias. Mean difference: |mean over all runs - reference| / reference; beside it what noise "
-               "alone makes of it.</p>\n";
+               "</table>\n<p class=\"note\">Of luminance, by pixel; the reference's noise is taken out, so that what has no bias may fall below 0. Noise "
+               "of a run and bias are RelMSE: by the spread of the runs, and of the mean over endlessly many (± two standard deviations, by leaving out "
+               "chunks of runs). One run's error is their sum, that of the mean over n runs noise / n + bias. Mean difference: "
+               "|mean over all runs - reference| / reference; beside it what noise alone makes of it.</p>\n";
     }
 
     std::string power(const std::vector<const EnsembleCell*>& cells) const {
