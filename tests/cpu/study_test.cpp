@@ -422,11 +422,31 @@ TEST_F(StudyTest, SummariesCountWhatIsThere) {
         EXPECT_EQ(html.find(part), std::string::npos) << part << ": the page must stand alone";
 }
 
+// If this fails, rays a pixel of one size are counted by the pixels of another.
+TEST_F(StudyTest, CostsAreToldByPixels) {
+    std::string text =
+        R"({ "format": 1, "scenes": ["box.json", "hall.json"], "seeds": 1, "size": [[10, 5], [20, 5]], "reference": { "graph": "graph.json", "spp": 2 },
+        "techniques": { "plain": { "graph": "graph.json" } }, "metrics": ["mse"], "charts": ["rays_by_pass"] })";
+    const Study study = loadStudy(write(text));
+    const std::vector<StudyRun> runs = expandRuns(study);
+    std::vector<std::string> names;
+    std::vector<ResultRow> rows;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        names.push_back("run " + std::to_string(i));
+        rows.push_back(exampleRow(names[i], 0, 1));  // 150 rays
+    }
+    const std::string html = reportHtml(study, summarize(study, runs, names, rows));
+    for (const char* part : {"10 × 5, 20 × 5 pixels", "box: time of a frame against pixels", "hall: rays of a frame against pixels", "hall, 20x5",
+                             "plain: 50 pixels, 3 rays a pixel", "plain: 100 pixels, 1.5 rays a pixel", "Rays by pass"})
+        EXPECT_NE(html.find(part), std::string::npos) << part;
+    text.replace(text.find("[[10, 5], [20, 5]]"), 18, "[10, 5]");
+    EXPECT_EQ(reportHtml(loadStudy(write(text)), {}).find("against pixels"), std::string::npos) << "of one size";
+}
+
 TEST(Chart, LogarithmicAxesPlaceDecadesEvenly) {
     LineChart chart{.title = "t", .xLabel = "x, ms", .yLabel = "y", .logX = true, .logY = true};
     const double none = std::nan("");
-    for (const double v : {1.0, 10.0, 100.0})
-        chart.series.resize(1), chart.series[0].points.push_back({v, 1 / v, none, none, none, none, "p"});
+    for (const double v : {1.0, 10.0, 100.0}) chart.series.resize(1), chart.series[0].points.push_back({v, 1 / v, none, none, none, none, "p"});
     chart.series[0].points.push_back({10, -1, none, none, none, none, "below"});
     const std::string svg = drawLines(chart);
     std::vector<double> centres;
