@@ -55,7 +55,8 @@ void SessionOptions::addTo(Command& command) {
         for (const std::string& text : texts) changes.set.push_back(readSetOption(text));
     };
     command.taken<std::vector<std::string>>("--set", takeSettings, "pass.parameter=value").repeatable();
-    command.taken<std::string>("--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants");
+    command.taken<std::string>(
+        "--variant", [this](const std::string& v) { changes.variant = v; }, "one of the graph's variants, or several: \"A + B\"");
     command.taken<std::string>("--show", [this](const std::string& v) { changes.show = v; }, "pass.port to show");
     command.option("--dump", dumps, "pass.port to write as well").repeatable();
     addRendererOptions(command, renderer);

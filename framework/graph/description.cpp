@@ -80,6 +80,17 @@ void applyVariant(Json& source, const std::string& name, const Where& where) {
     source.merge(Json(*patch));
 }
 
+/// What joins names of variants.
+constexpr std::string_view also = " + ";
+
+/// One after the other. "variants" itself stays what the file says until all are applied.
+void applyVariants(Json& source, const std::string& names, const Where& where) {
+    for (std::size_t start = 0, end = 0; end != names.npos; start = end + also.size()) {
+        end = names.find(also, start);
+        applyVariant(source, names.substr(start, end - start), where);
+    }
+}
+
 void applySetting(Json& source, const Setting& setting) {
     const std::size_t dot = setting.name.find('.');
     const std::string node = setting.name.substr(0, dot), name = setting.name.substr(dot + 1);
@@ -287,8 +298,11 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     if (const Json* variants = description.source.find("variants")) {
         if (!variants->isObject()) throw Error(variants->where(), "\"variants\" must be an object of merge patches");
         description.variants = keysOf(variants);
+        for (const auto& [name, patch] : variants->members())
+            if (name.find(also) != name.npos)
+                throw Error(patch.keyWhere(), "the name of a variant can't hold \" + \"", "it joins names: \"a + b\" is a and then b");
     }
-    if (options.variant) applyVariant(description.source, *options.variant, options.variantWhere.file.empty() ? Where{file.string()} : options.variantWhere);
+    if (options.variant) applyVariants(description.source, *options.variant, options.variantWhere.file.empty() ? Where{file.string()} : options.variantWhere);
     description.source.remove("variants");
     applyOptions(description.source, options, problems);
     DescriptionReader(description, problems).read();

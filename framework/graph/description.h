@@ -60,7 +60,7 @@ struct GraphOptions {
     std::optional<glm::uvec2> size;
     std::optional<std::uint32_t> seed;
     std::vector<Setting> set;   ///< "pass.parameter", "frame.seed", ...; what is wrong with one is said at the place of its value
-    std::optional<std::string> variant;
+    std::optional<std::string> variant;  ///< several joined by " + " are applied one after the other
     Where variantWhere = {};             ///< of that name; empty: it is told at the graph file
     std::optional<std::string> show;  ///< "pass" or "pass.port"
 };

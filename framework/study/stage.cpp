@@ -6,11 +6,13 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
+#include <framework/study/pixel_filter.h>
 #include <framework/study/stage.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace lodestir {
 namespace {
@@ -83,13 +85,12 @@ Stage::Stage(const Study& study, const RendererOptions& options) : study_(study)
 Stage::~Stage() = default;
 
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
-    GraphOptions options{
-        .scene = std::filesystem::absolute(study_.scenes[scene].file),
-        .size = study_.size,
-        .seed = seed,
-        .set = choice.set,
-        .variant = choice.variant,
-        .variantWhere = choice.variantWhere};
+    GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
+                         .size = study_.scenes[scene].size,
+                         .seed = seed,
+                         .set = choice.set,
+                         .variant = choice.variant,
+                         .variantWhere = choice.variantWhere};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port =
@@ -98,7 +99,7 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
     const Where& where = choice.port.empty() ? choice.where : choice.portWhere;
     if (port.type.kind != PortType::Kind::image)
         throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is no image", "name one with \"port\"");
-    if (sizeOf(staged.graph, staged.port.node, staged.port.port, study_.size) != study_.size)
+    if (sizeOf(staged.graph, staged.port.node, staged.port.port, options.size.value()) != *options.size)
         throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
                     "name another with \"port\"");
     return staged;
@@ -118,11 +119,20 @@ void Stage::check() {
             }
         }
     };
+    std::set<std::string> referenceFilms;
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
-        attempt([&] { samplesParameter(build(study_.reference, {}, scene, 0).graph, study_.reference.where); });
+        attempt([&] {
+            const StagedGraph reference = build(study_.reference, {}, scene, 0);
+            samplesParameter(reference.graph, study_.reference.where);
+            referenceFilms = filmsOf(reference.graph, reference.port);
+        });
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         for (const Technique& technique : study_.techniques)
-            for (const auto& knobs : combinations(technique)) attempt([&] { build(technique.graph, knobs, scene, study_.seeds.front()); });
+            for (const auto& knobs : combinations(technique))
+                attempt([&] {
+                    const StagedGraph staged = build(technique.graph, knobs, scene, study_.seeds.front());
+                    expectSameFilter(study_, technique, filmsOf(staged.graph, staged.port), referenceFilms);
+                });
     problems.raise();
 }
 
@@ -147,7 +157,7 @@ std::string Stage::nameOf(const StudyRun& run) {
     Hash hash;
     hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
     hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
-    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_, study_.scenes[run.scene])));
+    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
@@ -201,7 +211,7 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
         const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
         if (isFile(file)) return readExr(file);
         if (!runner) {
-            setParameter(staged.graph, samplesName, Json(samplesAFrame()));
+            setParameter(staged.graph, samplesName, Json(samplesAFrame(staged.graph)));
             runner = makeRunner(staged, sceneIndex);
         }
         ImageData image = renderHalf(staged, *runner, samplesName, frame, index);
@@ -214,19 +224,20 @@ Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, 
 
 Seen Stage::see(std::size_t index) { return seeFrames(renderer_, study_, study_.scenes[index], scene(index)); }
 
-int Stage::samplesAFrame() const {
-    const auto pixels = std::uint64_t(study_.size.x) * study_.size.y;
+int Stage::samplesAFrame(const Graph& graph) const {
+    const auto pixels = std::uint64_t(graph.description.size.x) * graph.description.size.y;
     return std::min(study_.referenceSamples / 2, int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024)));
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
 ImageData Stage::renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half) {
     const int total = study_.referenceSamples / 2;
-    std::vector<double> sum(std::size_t(study_.size.x) * study_.size.y * 3);
+    const glm::uvec2 size = staged.graph.description.size;
+    std::vector<double> sum(std::size_t(size.x) * size.y * 3);
     std::uint32_t seed = firstReferenceSeed + half * seedsPerHalf;
     log::Progress progress(fmt::format("reference of frame {}, half {}", frame, half == 0 ? "A" : "B"), std::size_t(total));
     for (int done = 0; done < total; ++seed) {
-        const int samples = std::min(samplesAFrame(), total - done);
+        const int samples = std::min(samplesAFrame(staged.graph), total - done);
         setParameter(staged.graph, samplesName, Json(samples));
         staged.graph.description.seed = seed;
         runner.reset();
@@ -237,7 +248,7 @@ ImageData Stage::renderHalf(StagedGraph& staged, Runner& runner, const std::stri
         done += samples;
         progress.advance(std::size_t(samples));
     }
-    ImageData result = makeImage(int(study_.size.x), int(study_.size.y), 3);
+    ImageData result = makeImage(int(size.x), int(size.y), 3);
     std::ranges::transform(sum, result.values.begin(), [](double value) { return float(value); });
     return result;
 }

@@ -61,7 +61,7 @@ public:
     Seen see(std::size_t scene);
 
 private:
-    int samplesAFrame() const;  ///< of a reference, at most
+    int samplesAFrame(const Graph& graph) const;  ///< of a reference, at most
     ImageData renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half);
 
     const Study& study_;

@@ -34,7 +34,9 @@ public:
         fields.choice("kind", kind, {"error", "ensemble"});
         study_.kind = StudyKind(kind);
         readScenes(fields.require("scenes"));
-        attempt([&] { readSize(fields.find("size")); });
+        study_.sizes = {StudyScene().size};
+        attempt([&] { readSizes(fields.find("size")); });
+        takeSizes();
         study_.measure = {0};
         if (const Json* frames = fields.find("frames")) readFrames(*frames);
         if (const Json* reference = fields.require("reference")) readReference(*reference);
@@ -112,11 +114,38 @@ private:
         });
     }
 
-    void readSize(const Json* size) {
-        if (!size) return;
-        if (size->items("\"size\"").size() != 2) throw Error(size->where(), "\"size\" must be [width, height], in pixels");
-        for (int i = 0; i < 2; ++i)
-            study_.size[i] = std::uint32_t(within(size->items()[std::size_t(i)], i == 0 ? "the width" : "the height", 1, 16384));
+    static glm::uvec2 sizeOf(const Json& json) {
+        if (json.items("a size").size() != 2) throw Error(json.where(), "a size must be [width, height], in pixels");
+        glm::uvec2 size;
+        for (int i = 0; i < 2; ++i) size[i] = std::uint32_t(within(json.items()[std::size_t(i)], i == 0 ? "the width" : "the height", 1, 16384));
+        return size;
+    }
+    /// One, or a list of them.
+    void readSizes(const Json* sizes) {
+        if (!sizes) return;
+        const auto& items = sizes->items("\"size\"");
+        if (items.empty() || !items.front().isArray()) {
+            study_.sizes = {sizeOf(*sizes)};
+            return;
+        }
+        if (study_.kind == StudyKind::ensemble) throw Error(sizes->where(), "an ensemble has one size");
+        study_.sizes.clear();
+        for (const Json& item : items) {
+            const glm::uvec2 size = sizeOf(item);
+            if (std::ranges::find(study_.sizes, size) != study_.sizes.end())
+                throw Error(item.where(), fmt::format("the size {}x{} is given twice", size.x, size.y));
+            study_.sizes.push_back(size);
+        }
+    }
+    void takeSizes() {
+        std::vector<StudyScene> scenes;
+        for (const StudyScene& scene : study_.scenes)
+            for (const glm::uvec2 size : study_.sizes) {
+                scenes.push_back(scene);
+                scenes.back().size = size;
+                if (study_.sizes.size() > 1) scenes.back().name += fmt::format(", {}x{}", size.x, size.y);
+            }
+        study_.scenes = std::move(scenes);
     }
 
     void readSeeds(const Json* seeds) {
@@ -250,6 +279,7 @@ private:
                 Technique technique{.name = name};
                 readGraph(fields, technique.graph);
                 if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
+                attempt([&] { technique.otherFilter = readFlag(fields.find("otherFilter"), "\"otherFilter\""); });
                 if (study_.kind == StudyKind::error) {
                     if (const Json* clear = fields.find("clear"))
                         attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });

@@ -38,12 +38,17 @@ struct Technique {
     std::vector<int> clear;    ///< frames after the event before which history is made void
     bool control = false;    ///< of an ensemble: known to be unbiased, so that blaming it blames the study
     bool planted = false;    ///< of an ensemble: known to be biased, to see it caught
+    bool otherFilter = false;  ///< it may have another pixel filter than its reference
 };
 
+/// A scene at one size of the image.
 struct StudyScene {
-    std::string name;  ///< of the file, without its ending
+    std::string name;  ///< of the file, without its ending; behind it the size, where the study has several
     Path file;
     Where where;
+    glm::uvec2 size{480, 270};  ///< pixels
+
+    double pixels() const { return double(size.x) * size.y; }
 };
 
 /// One number that a measured frame is judged by.
@@ -61,8 +66,8 @@ struct Study {
     Path file;
     StudyKind kind = StudyKind::error;
     std::string about;
-    std::vector<StudyScene> scenes;
-    glm::uvec2 size{480, 270};  ///< pixels
+    std::vector<StudyScene> scenes;    ///< file by file, of each size by size
+    std::vector<glm::uvec2> sizes;     ///< of each file, as the study has them
     std::vector<std::uint32_t> seeds;  ///< of an ensemble: one a run, in a row
     bool paired = false;       ///< every technique draws these seeds; else each draws its own, which these are moved to (drawnSeed())
     int warmup = 0;            ///< frames rendered before the event

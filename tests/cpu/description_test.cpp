@@ -91,6 +91,25 @@ TEST(Description, AppliesAVariantAsAMergePatch) {
     EXPECT_EQ(complaint({.variant = "drak"}), "graphs/g.json: no variant \"drak\"; did you mean \"dark\"?");
 }
 
+// If this fails, what is told of techniques together is told of one of them, or of them in another order.
+TEST(Description, VariantsAreAppliedOneAfterTheOther) {
+    const auto both = [](const char* first, const char* second) {
+        return readDescription(Json::parse(R"({"format": 1, "passes": {"a": {"type": "t", "set": {"x": 0, "y": 0}}}, "show": "a", "variants": {
+            "one": {"passes": {"a": {"set": {"x": 1}}}}, "two": {"passes": {"a": {"set": {"x": 2, "y": 2}}}}}})",
+                                           "g.json"),
+                               "g.json", {.variant = fmt::format("{} + {}", first, second)})
+            .nodes[0]
+            .settings;
+    };
+    EXPECT_EQ(both("one", "two")[0].value.asInt(), 2);
+    EXPECT_EQ(both("two", "one")[0].value.asInt(), 1);
+    EXPECT_EQ(both("two", "one")[1].value.asInt(), 2) << "of the one before";
+    EXPECT_EQ(complaint({.variant = "dark + lonely"}), "graphs/g.json: no variant \"lonely\"; did you mean \"lone\"?");
+    EXPECT_TRUE(complaint({.variant = "dark + "}).starts_with("graphs/g.json: no variant \"\""));
+    const auto joined = [] { readDescription(Json::parse(R"({"format": 1, "variants": {"a + b": {}}})", "g.json"), "g.json"); };
+    EXPECT_THROW(joined(), Error);
+}
+
 TEST(Description, TheCommandLineWinsOverFileAndVariant) {
     GraphOptions options;
     options.variant = "dark";

@@ -442,7 +442,7 @@ TEST_F(EnsembleFiles, ImagesOfChunksJoin) {
     still.values = {3, 3, 3, 9, 2, 2, 2, 4};
     keepChunkImage(folder, "one", 3, one, 20);
     keepChunkImage(folder, "two", 3, two, 40);
-    const EnsembleImage joined = joinChunkImages(folder, {"one", "two"}, 3);
+    const EnsembleImage joined = joinImages(readChunkImages(folder, {"one", "two"}, 3));
     EXPECT_EQ(joined.runs, 60);
     EXPECT_FLOAT_EQ(joined.image.values[0], 3);
     EXPECT_FLOAT_EQ(joined.image.values[3], 11.5f);
@@ -452,7 +452,7 @@ TEST_F(EnsembleFiles, ImagesOfChunksJoin) {
     still.values[0] = still.values[1] = still.values[2] = 2;
     still.values[3] = 4;
     EXPECT_NEAR(sigmaMap(joined, {still, 1e6}).values[0], 1 / std::sqrt(2.5 / 59), 1e-2);  // variance 11.5 - 9
-    EXPECT_THROW(joinChunkImages(folder, {"one", "three"}, 3), Error);
+    EXPECT_THROW(readChunkImages(folder, {"one", "three"}, 3), Error);
 
     ImageData values = makeImage(4, 1, 1);
     values.values = {0, 9, -9, std::numeric_limits<float>::quiet_NaN()};

@@ -62,7 +62,7 @@ TEST_F(StudyTest, ReadsTheContract) {
     const Study study = loadStudy(write(good));
     ASSERT_EQ(study.scenes.size(), 2u);
     EXPECT_EQ(study.scenes[1].name, "hall");
-    EXPECT_EQ(study.size, glm::uvec2(32, 18));
+    EXPECT_EQ(study.scenes[1].size, glm::uvec2(32, 18));
     EXPECT_EQ(study.seeds, (std::vector<std::uint32_t>{1, 2, 3}));
     EXPECT_EQ(study.warmup, 4);
     EXPECT_EQ(study.event, 10);
@@ -76,6 +76,28 @@ TEST_F(StudyTest, ReadsTheContract) {
     EXPECT_EQ(names, (std::vector<std::string>{"mse.switched", "mse", "mse.switched.finest", "mse.finest"}));
     EXPECT_EQ(study.techniques[1].graph.set.at(0).name, "a.spp");
     EXPECT_EQ(study.techniques[1].graph.graph, folder / "graph.json");
+}
+
+// If this fails, a row of one size is told as one of another.
+TEST_F(StudyTest, ScenesAreTakenAtEachSize) {
+    std::string text = good;
+    text.replace(text.find("[32, 18]"), 8, "[[32, 18], [64, 36]]");
+    const Study study = loadStudy(write(text));
+    ASSERT_EQ(study.scenes.size(), 4u);
+    EXPECT_EQ(study.scenes[1].name, "box, 64x36");
+    EXPECT_EQ(study.scenes[1].file, study.scenes[0].file);
+    EXPECT_EQ(study.scenes[1].pixels(), 64 * 36);
+    EXPECT_EQ(study.scenes[2].name, "hall, 32x18");
+    EXPECT_EQ(expandRuns(study).size(), 2 * expandRuns(loadStudy(write(good))).size());
+    const auto said = [&](const char* sizes) {
+        std::string wrong = good;
+        wrong.replace(wrong.find("[32, 18]"), 8, sizes);
+        const std::vector<std::string> lines = complaints(wrong);
+        return lines.empty() ? std::string() : lines.front().substr(lines.front().find(": ") + 2);
+    };
+    EXPECT_EQ(said("[[32, 18], [32, 18]]"), "the size 32x18 is given twice");
+    EXPECT_EQ(said("[[32, 18], [32]]"), "a size must be [width, height], in pixels");
+    EXPECT_EQ(said("[]"), "a size must be [width, height], in pixels");
 }
 
 TEST_F(StudyTest, TellsAllErrorsAtOnceWithPlaces) {
@@ -400,11 +422,31 @@ TEST_F(StudyTest, SummariesCountWhatIsThere) {
         EXPECT_EQ(html.find(part), std::string::npos) << part << ": the page must stand alone";
 }
 
+// If this fails, rays a pixel of one size are counted by the pixels of another.
+TEST_F(StudyTest, CostsAreToldByPixels) {
+    std::string text =
+        R"({ "format": 1, "scenes": ["box.json", "hall.json"], "seeds": 1, "size": [[10, 5], [20, 5]], "reference": { "graph": "graph.json", "spp": 2 },
+        "techniques": { "plain": { "graph": "graph.json" } }, "metrics": ["mse"], "charts": ["rays_by_pass"] })";
+    const Study study = loadStudy(write(text));
+    const std::vector<StudyRun> runs = expandRuns(study);
+    std::vector<std::string> names;
+    std::vector<ResultRow> rows;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        names.push_back("run " + std::to_string(i));
+        rows.push_back(exampleRow(names[i], 0, 1));  // 150 rays
+    }
+    const std::string html = reportHtml(study, summarize(study, runs, names, rows));
+    for (const char* part : {"10 × 5, 20 × 5 pixels", "box: time of a frame against pixels", "hall: rays of a frame against pixels", "hall, 20x5",
+                             "plain: 50 pixels, 3 rays a pixel", "plain: 100 pixels, 1.5 rays a pixel", "Rays by pass"})
+        EXPECT_NE(html.find(part), std::string::npos) << part;
+    text.replace(text.find("[[10, 5], [20, 5]]"), 18, "[10, 5]");
+    EXPECT_EQ(reportHtml(loadStudy(write(text)), {}).find("against pixels"), std::string::npos) << "of one size";
+}
+
 TEST(Chart, LogarithmicAxesPlaceDecadesEvenly) {
     LineChart chart{.title = "t", .xLabel = "x, ms", .yLabel = "y", .logX = true, .logY = true};
     const double none = std::nan("");
-    for (const double v : {1.0, 10.0, 100.0})
-        chart.series.resize(1), chart.series[0].points.push_back({v, 1 / v, none, none, none, none, "p"});
+    for (const double v : {1.0, 10.0, 100.0}) chart.series.resize(1), chart.series[0].points.push_back({v, 1 / v, none, none, none, none, "p"});
     chart.series[0].points.push_back({10, -1, none, none, none, none, "below"});
     const std::string svg = drawLines(chart);
     std::vector<double> centres;

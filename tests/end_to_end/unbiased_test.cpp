@@ -78,14 +78,50 @@ INSTANTIATE_TEST_SUITE_P(Paired, Unbiased,
                                          Case{"ensemble_glossy", 4, 256, "restir_pt_enhanced.json"}),
                          [](const auto& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); });
 
-// One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's.
-const auto jittered = [](const char* scene, int candidates, int runs, const char* file = "restir_pt.json") {
-    return Case{scene, candidates, runs, file, "frame jitter"};
-};
+// One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's. With a lens it is judged
+// above, splatted below.
 INSTANTIATE_TEST_SUITE_P(FrameJitter, Unbiased,
-                         testing::Values(jittered("ensemble_diffuse", 2, 192), jittered("ensemble_glass", 4, 384), jittered("ensemble_moving", 8, 960),
-                                         jittered("ensemble_lens", 8, 448), jittered("ensemble_moving", 8, 960, "restir_lod.json")),
-                         [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
+                         testing::Values(Case{"ensemble_diffuse", 2, 192, "restir_pt.json", "frame jitter"},
+                                         Case{"ensemble_glass", 4, 384, "restir_pt.json", "frame jitter"},
+                                         Case{"ensemble_moving", 8, 960, "restir_pt.json", "frame jitter"}),
+                         [](const auto& test) { return test.param.scene; });
+
+// Rows of studies/restir_pt_enhanced/combinations.json, which judges all eight: techniques that share code where neither knows of the other.
+struct Combination {
+    const char* row;
+    const char* scene;
+    const char* radius;  ///< the parameter
+    int runs;
+};
+
+void PrintTo(const Combination& c, std::ostream* out) { *out << c.row; }
+
+class UnbiasedTogether : public testing::TestWithParam<Combination> {};
+
+TEST_P(UnbiasedTogether, ReuseHasTheMeanOfPathTracing) {
+    const Combination& c = GetParam();
+    const Study study = loadStudy(sourceFolder / "studies/restir_pt_enhanced/combinations.json");
+    const auto row = std::ranges::find(study.techniques, c.row, &Technique::name);
+    ASSERT_NE(row, study.techniques.end());
+    StudyGraph judged = row->graph;
+    judged.set.push_back({c.radius, Json(5)});
+    EnsembleJudge judge({.scene = sourceFolder / "scenes" / (std::string(c.scene) + ".json"),
+                         .size = {32, 18},
+                         .warmup = 3,
+                         .frame = 3,
+                         .runs = c.runs,
+                         .reference = graph("path_tracer.json", "no accumulation", {}),
+                         .referenceSamples = 2048});
+    const EnsembleResult reuse = judge.judge(judged);
+    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
+    EXPECT_LE(reuse.halfWidth, 0.01);
+    std::printf("%s: %+.2f %% +- %.2f %%\n", c.row, 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
+}
+
+INSTANTIATE_TEST_SUITE_P(Combinations, UnbiasedTogether,
+                         testing::Values(Combination{"all", "ensemble_moving", "pairing.radius", 512},
+                                         Combination{"tiles, vector weights, two rounds, splatting", "ensemble_lights", "spatial.radius", 96}),
+                         [](const auto& test) { return std::string(test.param.scene); });
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {

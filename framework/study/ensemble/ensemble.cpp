@@ -9,8 +9,8 @@ Study studyOf(const EnsembleSetup& setup) {
     if (setup.frame < setup.warmup) throw Error("an ensemble measures a frame after its warm-up, not before");
     if (setup.referenceSamples % referenceBatches != 0) throw Error("an ensemble's reference needs a multiple of 64 samples a pixel");
     Study study{.kind = StudyKind::ensemble,
-                .scenes = {{setup.scene.stem().string(), setup.scene, {}}},
-                .size = setup.size,
+                .scenes = {{setup.scene.stem().string(), setup.scene, {}, setup.size}},
+                .sizes = {setup.size},
                 .paired = true,  // graphs have no names to be told apart by
                 .warmup = setup.warmup,
                 .event = setup.frame,

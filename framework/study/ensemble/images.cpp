@@ -15,37 +15,41 @@ const std::vector<std::string> chunkChannels{"mean.0", "mean.1", "mean.2", "squa
 
 Path fileOf(const Path& folder, const std::string& chunk, int offset) { return folder / fmt::format("{}.{}.exr", chunk, offset); }
 
-double luminanceOf(const ImageData& image, std::size_t pixel) {
-    const float* c = &image.values[4 * pixel];
-    return 0.2126 * double(c[0]) + 0.7152 * double(c[1]) + 0.0722 * double(c[2]);
-}
-
-/// Of the mean of a pixel's luminance.
-double varianceOf(const EnsembleImage& e, std::size_t pixel) {
-    const double mean = luminanceOf(e.image, pixel);
-    // Squares in 32 bits hold the variance of nearly equal values to no more than this.
-    const double floor = 1e-6 * mean * mean;
-    return std::max(double(e.image.values[4 * pixel + 3]) - mean * mean, floor) / std::max(1.0, e.runs - 1);
-}
-
 }  // namespace
 
 void keepChunkImage(const Path& folder, const std::string& chunk, int offset, const ImageData& image, int runs) {
     writeExr(fileOf(folder, chunk, offset), image, {.channels = chunkChannels, .attributes = {{"runs", std::to_string(runs)}}});
 }
 
-EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>& chunks, int offset) {
-    EnsembleImage whole;
-    std::vector<double> sum;
+double EnsembleImage::luminance(std::size_t pixel) const {
+    const float* c = &image.values[4 * pixel];
+    return 0.2126 * double(c[0]) + 0.7152 * double(c[1]) + 0.0722 * double(c[2]);
+}
+
+double EnsembleImage::variance(std::size_t pixel) const {
+    const double mean = luminance(pixel);
+    // Squares in 32 bits hold the variance of nearly equal values to no more than this.
+    const double floor = 1e-6 * mean * mean;
+    return std::max(double(image.values[4 * pixel + 3]) - mean * mean, floor) / std::max(1.0, runs - 1);
+}
+
+std::vector<EnsembleImage> readChunkImages(const Path& folder, const std::vector<std::string>& chunks, int offset) {
+    std::vector<EnsembleImage> images;
     for (const std::string& chunk : chunks) {
         const ExrFile file = readExrChannels(fileOf(folder, chunk, offset), chunkChannels);
         const auto runs = file.attributes.find("runs");
         if (runs == file.attributes.end()) throw Error({fileOf(folder, chunk, offset).string()}, "is no image of a chunk of runs");
-        const double count = std::stod(runs->second);
-        sum.resize(file.image.values.size());
-        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += count * double(file.image.values[i]);
-        whole.runs += count;
-        whole.image = file.image;
+        images.push_back({file.image, std::stod(runs->second)});
+    }
+    return images;
+}
+
+EnsembleImage joinImages(std::span<const EnsembleImage> images) {
+    EnsembleImage whole{.image = images.front().image};
+    std::vector<double> sum(whole.image.values.size());
+    for (const EnsembleImage& part : images) {
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part.runs * double(part.image.values[i]);
+        whole.runs += part.runs;
     }
     std::ranges::transform(sum, whole.image.values.begin(), [&](double value) { return float(value / whole.runs); });
     return whole;
@@ -54,8 +58,7 @@ EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>
 ImageData sigmaMap(const EnsembleImage& runs, const EnsembleImage& reference) {
     ImageData map = makeImage(runs.image.width, runs.image.height, 1);
     for (std::size_t p = 0; p < map.pixelCount(); ++p) {
-        const double variance = varianceOf(runs, p) + varianceOf(reference, p),
-                     difference = luminanceOf(runs.image, p) - luminanceOf(reference.image, p);
+        const double variance = runs.variance(p) + reference.variance(p), difference = runs.luminance(p) - reference.luminance(p);
         map.values[p] = difference == 0 ? 0.0f : float(difference / std::sqrt(variance));
     }
     return map;

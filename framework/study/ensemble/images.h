@@ -4,6 +4,7 @@
 #include <framework/core/files.h>
 #include <framework/image/image.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,13 +13,18 @@ namespace lodestir {
 /// Keeps a chunk's image (ChunkFrame::image, over `runs` runs) in a folder, and what joins the kept ones again.
 void keepChunkImage(const Path& folder, const std::string& chunk, int offset, const ImageData& image, int runs);
 
-/// Four channels, as ChunkFrame::image has them, over all runs.
+/// Four channels, as ChunkFrame::image has them, over some runs.
 struct EnsembleImage {
     ImageData image;
     double runs = 0;
+
+    double luminance(std::size_t pixel) const;
+    double variance(std::size_t pixel) const;  ///< of the mean of its luminance
 };
-/// Of all the chunks. Error when one is not in the folder.
-EnsembleImage joinChunkImages(const Path& folder, const std::vector<std::string>& chunks, int offset);
+/// Of each of the chunks. Error when one is not in the folder.
+std::vector<EnsembleImage> readChunkImages(const Path& folder, const std::vector<std::string>& chunks, int offset);
+/// Over the runs of all.
+EnsembleImage joinImages(std::span<const EnsembleImage> images);
 
 /// By how many standard deviations the luminance of each pixel's mean lies above the reference's; one channel. To look at, not to judge by:
 /// pixels have heavy tails.

@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace lodestir {
 namespace {
 
 constexpr double mapTop = 5;  // sigmas that have full colour
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:+.3f} %", 100 * share) : "unknown"; }
 
@@ -56,7 +58,7 @@ private:
             "energy is known to ±{:g} % (95 %), and planted faults that such an interval promises to show are caught at least 95 times in "
             "100. "
             "<b>Inconclusive</b> is a failure, too.",
-            study_.size.x, study_.size.y, study_.seeds.size(), study_.warmup, study_.referenceSamples, batchesOf(study_),
+            study_.sizes.front().x, study_.sizes.front().y, study_.seeds.size(), study_.warmup, study_.referenceSamples, batchesOf(study_),
             escapeHtml(device.empty() ? "no device yet" : device), blockSize, blockSize, 100 * study_.halfWidth);
         html += study_.paired
                     ? " Every technique draws the same seeds: differences between techniques can be taken run by run, and what all of them "
@@ -78,7 +80,7 @@ private:
             if (cell.scene == scene && cell.complete) cells.push_back(&cell);
         std::string html = fmt::format("<h2>{}</h2>\n", escapeHtml(study_.scenes[scene].name));
         if (cells.empty()) return html + "<p>Nothing to judge yet.</p>\n";
-        return html + verdicts(cells) + "<div class=\"charts\">\n" + intervals(cells) + "</div>\n" + maps(cells) + power(cells);
+        return html + verdicts(cells) + "<div class=\"charts\">\n" + intervals(cells) + "</div>\n" + maps(cells) + convergence(cells) + power(cells);
     }
 
     std::string verdicts(const std::vector<const EnsembleCell*>& cells) const {
@@ -92,9 +94,9 @@ private:
                 "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"{}\">{}</td><td>{} <span class=\"pm\">± {:.3f} "
                 "%</span></td><td>{:.2g}</td><td>{:.2g}</td>"
                 "<td>{:.4g}</td><td>{:.4g}</td><td class=\"reason\">{}</td></tr>\n",
-                escapeHtml(nameOf(*cell)), roleOf(study_.techniques[cell->technique]), r.runs, lodestir::nameOf(r.verdict),
-                lodestir::nameOf(r.verdict), percent(differenceOf(*cell)), 100 * r.halfWidth, r.tests.energyP, r.tests.blockP,
-                cell->milliseconds, cell->rays / (double(study_.size.x) * study_.size.y), escapeHtml(r.reason));
+                escapeHtml(nameOf(*cell)), roleOf(study_.techniques[cell->technique]), r.runs, lodestir::nameOf(r.verdict), lodestir::nameOf(r.verdict),
+                percent(differenceOf(*cell)), 100 * r.halfWidth, r.tests.energyP, r.tests.blockP, cell->milliseconds,
+                cell->rays / study_.scenes[cell->scene].pixels(), escapeHtml(r.reason));
         }
         html += "</table>\n<p class=\"note\">The reference's halves differ by ";
         std::map<int, double> halves;
@@ -131,6 +133,36 @@ private:
         return html + "</div>\n";
     }
 
+    std::string convergence(const std::vector<const EnsembleCell*>& cells) const {
+        LineChart chart{
+            .title = "Error of the mean over runs", .xLabel = "time of the frame in all runs, ms", .yLabel = "RelMSE of luminance", .logX = true, .logY = true};
+        std::string rows;
+        for (const EnsembleCell* cell : cells) {
+            if (!cell->convergence) continue;
+            const Convergence& c = *cell->convergence;
+            ChartSeries series{.name = nameOf(*cell)};
+            for (const Convergence::Point& point : c.points)
+                series.points.push_back({.x = point.runs * cell->milliseconds,
+                                         .y = point.error,
+                                         .low = unknown,
+                                         .high = unknown,
+                                         .left = unknown,
+                                         .right = unknown,
+                                         .about = fmt::format("{}: {} runs, {:.4g}", nameOf(*cell), point.runs, point.error)});
+            chart.series.push_back(std::move(series));
+            rows += fmt::format("<tr><td>{}</td><td>{:.4g}</td><td>{:.2g}{}</td><td>{:.2f} %</td><td>{:.2f} %</td></tr>\n", escapeHtml(nameOf(*cell)), c.noise,
+                                c.bias, std::isnan(c.biasDeviation) ? "" : fmt::format(" <span class=\"pm\">± {:.2g}</span>", 2 * c.biasDeviation),
+                                100 * c.difference, 100 * c.differenceOfNoise);
+        }
+        if (rows.empty()) return {};
+        return "<h3>Convergence</h3>\n<div class=\"charts\">\n" + drawLines(chart) +
+               "</div>\n<table><tr><th>technique</th><th>noise of a run</th><th>bias</th><th>mean difference</th><th>that of noise</th></tr>\n" + rows +
+               "</table>\n<p class=\"note\">Of luminance, by pixel; the reference's noise is taken out, so that what has no bias may fall below 0. Noise "
+               "of a run and bias are RelMSE: by the spread of the runs, and of the mean over endlessly many (± two standard deviations, by leaving out "
+               "chunks of runs). One run's error is their sum, that of the mean over n runs noise / n + bias. Mean difference: "
+               "|mean over all runs - reference| / reference; beside it what noise alone makes of it.</p>\n";
+    }
+
     std::string power(const std::vector<const EnsembleCell*>& cells) const {
         const auto sound = std::ranges::find_if(cells, [](const EnsembleCell* cell) { return !cell->result.faults.empty(); });
         if (sound == cells.end()) return {};
@@ -161,9 +193,30 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// How large the error of a run is, and how much of it stays in the mean of all.
+std::string convergenceText(const Study& study, const EnsembleSummary& summary, std::size_t scene, std::size_t width) {
+    std::string text;
+    for (const EnsembleCell& cell : summary.cells) {
+        if (cell.scene != scene || !cell.convergence) continue;
+        const Convergence& c = *cell.convergence;
+        if (text.empty())
+            text = fmt::format("  {:<{}} {:>5} {:>10} {:>12} {:>24} {:>22}\n", "RelMSE of luminance", width, "frame", "rays/px", "noise of run",
+                               "bias +- 2 sigmas", "|difference| (noise)");
+        text += fmt::format("  {:<{}} {:>5} {:>10.4g} {:>12.4g} {:>24} {:>22}\n", labelOf(study, cell), width, cell.offset,
+                            cell.rays / study.scenes[scene].pixels(), c.noise,
+                            std::isnan(c.biasDeviation) ? fmt::format("{:.2g}", c.bias) : fmt::format("{:.2g} +- {:.2g}", c.bias, 2 * c.biasDeviation),
+                            fmt::format("{:.2f} % ({:.2f} %)", 100 * c.difference, 100 * c.differenceOfNoise));
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string ensembleText(const Study& study, const EnsembleSummary& summary) {
     std::string text;
-    std::size_t width = 9;
+    std::size_t width = std::string_view("RelMSE of luminance").size();
     for (const EnsembleCell& cell : summary.cells) width = std::max(width, labelOf(study, cell).size());
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
         text += fmt::format("{}\n  {:<{}} {:>5} {:>5}  {:<12} {:>22}  because\n", study.scenes[scene].name, "technique", width, "frame",
@@ -176,6 +229,7 @@ std::string ensembleText(const Study& study, const EnsembleSummary& summary) {
                                 nameOf(r.verdict), fmt::format("{} +- {:.3f}", percent(differenceOf(cell)), 100 * r.halfWidth),
                                 role.empty() ? "" : "(" + role + ") ", r.reason);
         }
+        text += convergenceText(study, summary, scene, width);
     }
     return text;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What an ensemble has measured: a line of results.jsonl for each chunk of runs and measured frame, and what all chunks together say.
 #pragma once
+#include <framework/study/ensemble/convergence.h>
 #include <framework/study/ensemble/runs.h>
 #include <framework/study/ensemble/verdict.h>
 
 #include <nlohmann/json.hpp>
 
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -42,6 +44,7 @@ struct EnsembleCell {
     double milliseconds = 0, rays = 0;
     double halvesSigmas = 0;  ///< by which the reference's two halves differ in luminance
     EnsembleResult result;
+    std::optional<Convergence> convergence;  ///< where it is complete and images of its chunks were read
 };
 
 struct EnsembleSummary {

@@ -67,7 +67,7 @@ private:
 bool EnsembleChunk::isSeriesOf(const EnsembleChunk& other) const { return keyOf(*this) == keyOf(other); }
 
 int batchesOf(const Study& study) {
-    const auto pixels = std::uint64_t(study.size.x) * study.size.y;
+    const auto pixels = std::uint64_t(study.scenes.front().pixels());
     const auto most = int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024));
     int batches = referenceBatches;
     while (study.referenceSamples / batches > most && study.referenceSamples % (2 * batches) == 0) batches *= 2;

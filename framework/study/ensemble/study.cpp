@@ -41,16 +41,17 @@ std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study&
     return rows;
 }
 
-/// The mean of the runs, and a map of where it isn't the reference's; the reference's own mean beside them.
-void writeImages(const Study& study, const EnsembleCell& cell, const Path& chunks, const Path& folder) {
+/// How the images of chunks converge. Writes the mean of the runs, and a map of where it isn't the reference's; the reference's own mean beside them.
+Convergence judgeImages(const Study& study, const EnsembleCell& cell, const Path& chunks, const Path& folder) {
     constexpr double top = 5;  // sigmas of full colour
-    const EnsembleImage runs = joinChunkImages(chunks, cell.chunks, cell.offset),
-                        reference = joinChunkImages(chunks, cell.referenceChunks, cell.offset);
+    const std::vector<EnsembleImage> parts = readChunkImages(chunks, cell.chunks, cell.offset);
+    const EnsembleImage runs = joinImages(parts), reference = joinImages(readChunkImages(chunks, cell.referenceChunks, cell.offset));
     const std::string scene = study.scenes[cell.scene].name;
     const std::string name = fileName(fmt::format("{}.{}.{}", scene, labelOf(study, cell), cell.offset));
     writeExr(folder / (name + ".exr"), firstChannels(runs.image, 3));
     writeExr(folder / fileName(fmt::format("{}.reference.{}.exr", scene, cell.offset)), firstChannels(reference.image, 3));
     writePng(folder / (name + ".sigmas.png"), divergingMap(sigmaMap(runs, reference), top));
+    return convergenceOf(parts, reference);
 }
 
 }  // namespace
@@ -79,8 +80,8 @@ EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, c
         }
     }
     EnsembleSummary summary = summarizeEnsemble(study, chunks, names, readEnsembleRows(out));
-    for (const EnsembleCell& cell : summary.cells)
-        if (cell.complete) writeImages(study, cell, out / "chunks", out / "images");
+    for (EnsembleCell& cell : summary.cells)
+        if (cell.complete) cell.convergence = judgeImages(study, cell, out / "chunks", out / "images");
     writeFile(out / "report.html", ensembleHtml(study, summary));
     return summary;
 }

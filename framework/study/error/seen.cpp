@@ -18,12 +18,12 @@ template <class T> std::vector<T> valuesOf(const std::vector<std::byte>& bytes) 
 
 bool needsSeen(const Study& study) { return study.maskSwitched || std::ranges::any_of(study.metrics, isTemporal); }
 
-Graph seenGraph(Renderer& renderer, const Study& study, const StudyScene& file) {
-    return renderer.build(graphFolder() / "framework/seen.json", {.scene = std::filesystem::absolute(file.file), .size = study.size});
+Graph seenGraph(Renderer& renderer, const StudyScene& file) {
+    return renderer.build(graphFolder() / "framework/seen.json", {.scene = std::filesystem::absolute(file.file), .size = file.size});
 }
 
 Seen seeFrames(Renderer& renderer, const Study& study, const StudyScene& file, const Scene& scene) {
-    Graph graph = seenGraph(renderer, study, file);
+    Graph graph = seenGraph(renderer, file);
     const Source hits = findSource(graph, "hits.hits"), motion = findSource(graph, "hits.motion"), changed = findSource(graph, "lod.changed");
     const std::unique_ptr<Runner> runner = renderer.bringUp(graph, scene, {.pinned = {hits, motion, changed}});
     runner->setFrame(std::uint32_t(study.event - study.warmup));

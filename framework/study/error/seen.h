@@ -20,7 +20,7 @@ struct Seen {
 /// Does what a study measures depend on any of it?
 bool needsSeen(const Study& study);
 /// The graph that it is seen by: graphs/framework/seen.json, with levels by the scene's own policy.
-Graph seenGraph(Renderer& renderer, const Study& study, const StudyScene& file);
+Graph seenGraph(Renderer& renderer, const StudyScene& file);
 /// Renders the frames of a study by that graph.
 Seen seeFrames(Renderer& renderer, const Study& study, const StudyScene& file, const Scene& scene);
 

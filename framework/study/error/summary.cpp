@@ -115,7 +115,7 @@ std::string summaryText(const Study& study, const Summary& summary) {
         for (const Cell& cell : summary.cells) {
             if (cell.scene != scene || cell.seeds == 0) continue;
             text += fmt::format("  {:<{}} {:>5} {:>5} {:>10.4g} {:>10.4g}", label(cell), width, cell.offset, cell.seeds, cell.milliseconds,
-                                cell.rays.mean / (double(study.size.x) * study.size.y));
+                                cell.rays.mean / study.scenes[scene].pixels());
             for (const Measure& measure : measuresOf(study)) {
                 const auto found = cell.metrics.find(measure.name());
                 if (found == cell.metrics.end()) {  // of a sequence, and the first of it

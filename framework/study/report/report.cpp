@@ -49,14 +49,15 @@ public:
             {"error_vs_time", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, true); }},
             {"error_vs_rays", [](const Report& r, const Measure& m, const Cells& c) { return r.errorAlong(m, c, false); }},
             {"error_vs_frame", [](const Report& r, const Measure& m, const Cells& c) { return r.measuresFrames() ? r.errorByFrame(m, c, false) : ""; }},
-            {"time_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.timeByPass(c); }, true},
+            {"time_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.costByPass(c, true); }, true},
+            {"rays_by_pass", [](const Report& r, const Measure&, const Cells& c) { return r.costByPass(c, false); }, true},
             {"stability", [](const Report& r, const Measure& m,
                              const Cells& c) { return r.measuresFrames() && scaleOf(m.metric).fromZero ? r.errorByFrame(m, c, true) : ""; }},
         };
         return kinds;
     }
 
-    Report(const Study& study, const Summary& summary) : study_(study), summary_(summary), pixels_(double(study.size.x) * study.size.y) {
+    Report(const Study& study, const Summary& summary) : study_(study), summary_(summary) {
         for (const std::string& device : summary.devices) device_ += (device_.empty() ? "" : " and ") + device;
         // The frame that charts without a frame axis show: the event's own, else the last.
         const bool hasEvent = std::ranges::find(study.measure, 0) != study.measure.end();
@@ -66,17 +67,22 @@ public:
     std::string page() const {
         std::string html = conditions();
         for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene) html += sceneSection(scene);
+        if (study_.sizes.size() > 1) html += sizesSection();
         return pageHtml(study_.file.stem().string(), study_.about, html);
     }
 
 private:
+    double pixelsOf(const Cell& cell) const { return study_.scenes[cell.scene].pixels(); }
+    double raysOf(const Cell& cell) const { return cell.rays.mean / pixelsOf(cell); }
+
     std::string conditions() const {
+        std::vector<std::string> sizes;
+        for (const glm::uvec2 size : study_.sizes) sizes.push_back(fmt::format("{} × {}", size.x, size.y));
         std::string html = fmt::format(
-            "<p class=\"note\">{} × {} pixels, {} seeds, measured on {}. Times are the device's own and medians over seeds (bars: fastest "
+            "<p class=\"note\">{} pixels, {} seeds, measured on {}. Times are the device's own and medians over seeds (bars: fastest "
             "to slowest), errors are means over "
             "seeds with 95 % intervals of Student's t. References have {} samples a pixel",
-            study_.size.x, study_.size.y, study_.seeds.size(), escapeHtml(device_.empty() ? "no device yet" : device_),
-            study_.referenceSamples);
+            list(sizes), study_.seeds.size(), escapeHtml(device_.empty() ? "no device yet" : device_), study_.referenceSamples);
         std::vector<std::string> clean, noisy;
         for (const std::string& metric : study_.metrics) (isNoiseFree(metric) ? clean : noisy).push_back(metric);
         html += " in two independent halves A and B";
@@ -133,9 +139,8 @@ private:
         for (const Measure& measure : measuresOf(study_)) html += fmt::format("<th>{}</th>", escapeHtml(measure.name()));
         html += "</tr>\n";
         for (const Cell* cell : cells) {
-            html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>",
-                                escapeHtml(labelOf(*cell)), cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest,
-                                cell->rays.mean / pixels_);
+            html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{:.4g}</td><td>{:.4g} – {:.4g}</td><td>{:.4g}</td>", escapeHtml(labelOf(*cell)),
+                                cell->offset, cell->seeds, cell->milliseconds, cell->fastest, cell->slowest, raysOf(*cell));
             for (const Measure& measure : measuresOf(study_)) {
                 const auto found = cell->metrics.find(measure.name());
                 html += found != cell->metrics.end() ? fmt::format("<td>{}</td>", estimateHtml(found->second)) : "<td></td>";
@@ -195,9 +200,9 @@ private:
         for (const Cell* cell : cells) {
             if (cell->offset != shown || !cell->metrics.contains(metric)) continue;
             const Estimate& e = cell->metrics.at(metric);
-            ChartPoint point = pointOf(time ? cell->milliseconds : cell->rays.mean / pixels_, e,
-                                       fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell),
-                                                   cell->milliseconds, cell->rays.mean / pixels_, metric, e.mean, e.halfWidth));
+            ChartPoint point = pointOf(time ? cell->milliseconds : raysOf(*cell), e,
+                                       fmt::format("{}: {:.4g} ms, {:.4g} rays a pixel, {} {:.4g} ± {:.2g}", labelOf(*cell), cell->milliseconds, raysOf(*cell),
+                                                   metric, e.mean, e.halfWidth));
             if (time) point.left = cell->fastest, point.right = cell->slowest;
             seriesNamed(chart.series, curveOf(*cell)).points.push_back(std::move(point));
         }
@@ -227,21 +232,43 @@ private:
         return drawLines(chart);
     }
 
-    std::string timeByPass(const Cells& cells) const {
+    std::string costByPass(const Cells& cells, bool time) const {
         std::vector<Bar> bars;
         for (const Cell* cell : cells) {
             if (cell->offset != shown_) continue;
             Bar bar{.name = labelOf(*cell)};
-            for (const PassSummary& pass : cell->passes) bar.parts.push_back({pass.name, pass.milliseconds});
+            for (const PassSummary& pass : cell->passes) bar.parts.push_back({pass.name, time ? pass.milliseconds : pass.rays / pixelsOf(*cell)});
             bars.push_back(std::move(bar));
         }
-        return drawBars(study_.measure.size() > 1 ? fmt::format("Time by pass, frame {}", shown_) : "Time by pass",
-                        "mean time, ms (" + device_ + ")", bars);
+        return drawBars(std::string(time ? "Time by pass" : "Rays by pass") + (measuresFrames() ? fmt::format(", frame {}", shown_) : ""),
+                        time ? "mean time, ms (" + device_ + ")" : "rays a pixel", bars);
+    }
+
+    /// Of each scene file: what a frame takes at the sizes of its image.
+    std::string sizesSection() const {
+        std::string html = "<h2>Cost with resolution</h2>\n<div class=\"charts\">\n";
+        for (std::size_t first = 0; first < study_.scenes.size(); first += study_.sizes.size())
+            for (const bool time : {true, false}) {
+                LineChart chart{.title = fmt::format("{}: {} of a frame against pixels", study_.scenes[first].file.stem().string(), time ? "time" : "rays"),
+                                .xLabel = "pixels of the frame",
+                                .yLabel = time ? "time of the frame, ms (" + device_ + ")" : "rays a pixel",
+                                .logX = true,
+                                .logY = time};
+                for (const Cell& cell : summary_.cells) {
+                    if (cell.seeds == 0 || cell.offset != shown_ || cell.scene < first || cell.scene >= first + study_.sizes.size()) continue;
+                    const double value = time ? cell.milliseconds : raysOf(cell);
+                    const std::string about = fmt::format("{}: {} pixels, {:.4g} {}", labelOf(cell), pixelsOf(cell), value, time ? "ms" : "rays a pixel");
+                    ChartPoint point{.x = pixelsOf(cell), .y = value, .low = nan, .high = nan, .left = nan, .right = nan, .about = about};
+                    if (time) point.low = cell.fastest, point.high = cell.slowest;
+                    seriesNamed(chart.series, labelOf(cell)).points.push_back(std::move(point));
+                }
+                html += drawLines(chart);
+            }
+        return html + "</div>\n";
     }
 
     const Study& study_;
     const Summary& summary_;
-    double pixels_;
     std::string device_;
     int shown_ = 0;
 };

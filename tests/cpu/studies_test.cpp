@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Studies with the graphs of the tree, without a device: each file starts, and what is judged by another pixel filter than its own is refused.
+#include "../end_to_end/source_folder.h"
+#include "../temporary_folder.h"
+
+#include <framework/study/stage.h>
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace lodestir::test {
+namespace {
+
+/// What is said of a study before anything runs; empty: nothing.
+std::string complaintOf(const Path& file) {
+    try {
+        const Study study = loadStudy(file);
+        Stage(study, {}).check();
+        return {};
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+std::vector<Path> studiesOfTheTree() {
+    std::vector<Path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder / "studies"))
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::ranges::sort(files);
+    return files;
+}
+
+// If this fails, a study is found broken on the day that somebody needs it.
+TEST(Studies, Start) {
+    const std::vector<Path> files = studiesOfTheTree();
+    EXPECT_GT(files.size(), 10u);
+    for (const Path& file : files) EXPECT_EQ(complaintOf(file), "") << file;
+}
+
+/// The graphs of a study's techniques on its first scene.
+struct StudyGraphs {
+    const Study study;
+    Stage stage;
+    std::vector<Graph> graphs;
+
+    explicit StudyGraphs(const char* file) : study(loadStudy(sourceFolder / "studies" / file)), stage(study, {}) {
+        for (const Technique& technique : study.techniques) graphs.push_back(stage.build(technique.graph, {}, 0, 1).graph);
+    }
+};
+
+/// Passes of a graph by name, with every default; what is said of criteria that are not asked left out.
+nlohmann::json passesOf(const Graph& graph) {
+    nlohmann::json passes = nlohmann::json::parse(graph.resolved().dump(-1))["passes"];  // sorted by name
+    nlohmann::json& initial = passes["initial"]["set"];
+    if (initial["criteria"] == "footprint")
+        for (const char* name : {"distance", "distanceShare"}) initial.erase(name);
+    return passes;
+}
+
+// If this fails, a row of the table shows more than one technique, or its end is not the graph that others are judged by.
+TEST(Table1, LeadsFrom2022ToTheEnhancedGraphByOneTechniqueARow) {
+    const StudyGraphs table("restir_pt_enhanced/table1.json");
+    Renderer renderer;
+    const auto expectSame = [&](const Graph& row, const char* file, const GraphOptions& options) {
+        EXPECT_EQ(nlohmann::json::diff(passesOf(renderer.build(sourceFolder / "graphs" / file, options)), passesOf(row)).dump(), "[]") << file;
+    };
+    expectSame(table.graphs.front(), "restir_pt_2022.json", {});
+    expectSame(table.graphs.back(), "restir_pt_enhanced.json",
+               {.set = {{"hits.film", Json("centre")}, {"spatial.compaction", Json(true)}}, .variant = "duplication map"});
+    for (std::size_t row = 1; row < table.graphs.size(); ++row)
+        EXPECT_NE(passesOf(table.graphs[row]), passesOf(table.graphs[row - 1])) << "row " << row << " shows nothing new";
+}
+
+bool wired(const Graph& graph, const char* pass, const char* port) {
+    const GraphNode& node = graph.nodes[std::size_t(graph.find(pass))];
+    for (std::size_t i = 0; i < node.inputs.size(); ++i)
+        if (node.pass->ports[i]->name == port) return node.inputs[i].has_value();
+    throw Error(std::string("no port ") + port);
+}
+std::string typeOf(const Graph& graph, const char* pass) { return graph.nodes[std::size_t(graph.find(pass))].type; }
+std::string valueOf(const Graph& graph, const char* pass, const char* name) {
+    const auto& parameters = graph.nodes[std::size_t(graph.find(pass))].pass->parameters;
+    const Parameter& parameter = **std::ranges::find(parameters, name, &Parameter::name);
+    return writeValue(parameter, parameter.value).dump(-1);
+}
+
+// If this fails, two techniques are never judged together, or one never without the other.
+TEST(Combinations, HoldEveryPairOfTechniques) {
+    const StudyGraphs study("restir_pt_enhanced/combinations.json");
+    EXPECT_EQ(study.graphs.size(), 8u);
+    std::vector<std::vector<std::string>> rows;
+    for (const Graph& g : study.graphs)
+        rows.push_back({typeOf(g, "spatial"), typeOf(g, "temporal"), valueOf(g, "initial", "criteria"), valueOf(g, "initial", "forcedNee"),
+                        valueOf(g, "initial", "roulette"), valueOf(g, "initial", "camera"), valueOf(g, "spatial", "rounds"),
+                        std::to_string(wired(g, "initial", "tiles")), std::to_string(wired(g, "shade", "color"))});
+    for (std::size_t a = 0; a < rows[0].size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            std::set<std::pair<std::string, std::string>> pairs;
+            for (const auto& row : rows) pairs.insert({row[a], row[b]});
+            EXPECT_EQ(pairs.size(), 4u) << rows[0][a] << " with " << rows[0][b];
+        }
+}
+
+class FilterTest : public FolderTest {
+protected:
+    static Path graph(const char* file) { return sourceFolder / "graphs" / file; }
+    static OrderedJson technique(const Path& file, OrderedJson more = OrderedJson::object()) {
+        more["graph"] = file.string();
+        return more;
+    }
+    /// Of a study of one technique against path tracing with rays of that film.
+    std::string complaint(const OrderedJson& judged, const char* referenceFilm, StudyKind kind = StudyKind::error) {
+        OrderedJson study{{"format", 1},
+                          {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
+                          {"reference", technique(graph("path_tracer.json"), {{"set", {{"trace.film", referenceFilm}}}, {"spp", 64}})},
+                          {"techniques", {{"judged", judged}}}};
+        if (kind == StudyKind::ensemble)
+            study.update(OrderedJson{{"kind", "ensemble"}, {"runs", 16}});
+        else
+            study["seeds"] = 1;
+        writeFile(folder / "study.json", study.dump(1));
+        return complaintOf(folder / "study.json");
+    }
+};
+
+// If this fails, the difference between two filters stands in a report as an error, or a technique is refused that has its reference's filter.
+TEST_F(FilterTest, IsThatOfTheReference) {
+    const OrderedJson ownPlaces{{"hits.film", "centre"}, {"hits.lens", false}, {"initial.camera", "path"}};
+    const std::vector<std::pair<OrderedJson, std::string>> techniques{
+        {technique(graph("path_tracer.json")), "random"},
+        {technique(graph("path_tracer.json"), {{"set", {{"trace.film", "centre"}}}}), "centre"},
+        {technique(graph("restir_pt.json")), "random"},
+        {technique(graph("restir_pt.json"), {{"variant", "no reuse"}}), "random"},
+        {technique(graph("restir_pt.json"), {{"variant", "paired"}, {"port", "spatial.color"}}), "random"},
+        {technique(graph("restir_pt_2022.json")), "centre"},
+        {technique(graph("restir_pt_2022.json"), {{"port", "direct.color"}}), "centre"},
+        {technique(graph("restir_lod.json")), "random"},
+        {technique(graph("restir_pt_enhanced.json"), {{"set", {{"hits.film", "centre"}}}}), "centre"},
+        {technique(graph("restir_pt_enhanced.json"), {{"variant", "duplication map"}, {"set", ownPlaces}}), "random"}};
+    for (const auto& [judged, film] : techniques)
+        for (const char* reference : {"random", "centre"}) {
+            const std::string said = complaint(judged, reference);
+            EXPECT_EQ(said.empty(), film == reference) << judged << ", " << reference << ": " << said;
+            EXPECT_EQ(complaint(judged, reference, StudyKind::ensemble), said);
+        }
+}
+
+TEST_F(FilterTest, OneFrameOfOnePlaceIsNoBoxFilter) {
+    for (const char* file : {"restir_pt.json", "restir_lod.json"}) {
+        const OrderedJson jittered = technique(graph(file), {{"variant", "frame jitter"}});
+        for (const char* reference : {"random", "centre", "frame"}) EXPECT_NE(complaint(jittered, reference), "") << file << ", " << reference;
+        EXPECT_EQ(complaint(jittered, "random", StudyKind::ensemble), "") << "its mean is";
+        EXPECT_NE(complaint(jittered, "centre", StudyKind::ensemble), "");
+    }
+}
+
+TEST_F(FilterTest, OneThatDiffersIsToldAndMayBeMeant) {
+    OrderedJson judged = technique(graph("restir_pt_2022.json"));
+    const std::string said = complaint(judged, "random");
+    EXPECT_TRUE(said.starts_with((folder / "study.json:").string())) << said;
+    EXPECT_NE(said.find("technique \"judged\" sees through the centres of pixels, the reference through random places of pixels; give both the same \"film\""),
+              said.npos)
+        << said;
+    judged["otherFilter"] = true;
+    EXPECT_EQ(complaint(judged, "random"), "");
+    const OrderedJson varied = technique(graph("path_tracer.json"), {{"vary", {{"trace.film", {"random", "centre"}}}}});
+    EXPECT_NE(complaint(varied, "random").find("the centres"), std::string::npos) << "a value among others";
+}
+
+}  // namespace
+}  // namespace lodestir::test
