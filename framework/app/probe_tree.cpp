@@ -52,8 +52,9 @@ public:
 
     void take(const ProbeRecord& record, const ProbeSite& site) {
         switch (record.kind) {
-        case PROBE_SCOPE: openIn(site.name, true); break;
-        case PROBE_OBJECT: openIn(site.name, false); break;
+        case PROBE_SCOPE:
+        case PROBE_SCOPE_AGAIN:
+        case PROBE_OBJECT: open(site.name, record.kind); break;
         case PROBE_SCOPE_END: close(site.name); break;
         case PROBE_ITEM_END: scopes_.resize(1); break;
         default: add(site.name, valueOf(record, site));
@@ -69,18 +70,16 @@ private:
     };
 
     // A scope's object lies in its parent's, which nothing is added to before the scope ends: pointers stay.
-    void openIn(const std::string& name, bool listed) {
+    void open(const std::string& name, std::uint32_t kind) {
         close(name);
-        OrderedJson& parent = *scopes_.back().object;
-        OrderedJson* object = nullptr;
-        if (listed) {
-            OrderedJson& list = parent[name];
-            list.push_back(OrderedJson::object());
-            object = &list.back();
-        } else {
-            object = &add(name, OrderedJson::object());
-        }
-        scopes_.push_back({name, object, {}});
+        OrderedJson& object = kind == PROBE_OBJECT ? add(name, OrderedJson::object()) : member(name, kind == PROBE_SCOPE);
+        scopes_.push_back({name, &object, {}});
+    }
+    /// The last member of a list, a new one where `another` or where there is none.
+    OrderedJson& member(const std::string& name, bool another) {
+        OrderedJson& list = (*scopes_.back().object)[name];
+        if (another || list.empty()) list.push_back(OrderedJson::object());
+        return list.back();
     }
     void close(const std::string& name) {
         const auto found = std::ranges::find(scopes_.begin() + 1, scopes_.end(), name, &Scope::name);

@@ -5,6 +5,7 @@
 #include <framework/app/port_value.h>
 #include <framework/app/probe_tree.h>
 #include <framework/app/session.h>
+#include <framework/core/json.h>
 #include <framework/core/log.h>
 
 #include <fmt/format.h>
@@ -83,7 +84,7 @@ int probePixel(const ProbeOptions& options) {
                            {"frame", options.frame},
                            {"pixel", {options.pixel.x, options.pixel.y}},
                            {"passes", passes}};
-    std::printf("%s\n", json.dump(2).c_str());
+    std::printf("%s\n", Json::from(json).dump().c_str());
     return 0;
 }
 

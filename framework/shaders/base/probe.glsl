@@ -7,6 +7,7 @@
 //   PROBE_TEXT_IF(name, "words", condition);
 //   PROBE_OPEN(name);                    a scope: what follows belongs to another member of the list `name` ...
 //   PROBE_OBJECT_OPEN(name);             ... or to the object `name`
+//   PROBE_REOPEN(name);                  what follows belongs to the list's last member
 //   PROBE_CLOSE(name);                   ends it and all scopes inside; so does the next of the same name, and the end of the driver's item
 //   PROBE_ABOUT(pixel);                  what follows, up to the end of the driver's item, is about this pixel as well
 //   PROBE_START(pixel);                  once main() goes on from skip(): the invocation's pixel; trace/driver.glsl says it for shaders that trace
@@ -64,6 +65,7 @@ void probeItemEnd() {
 #define PROBE_TEXT_IF(name, words, condition) probeWords(PROBE_PLACE, condition)
 #define PROBE_OPEN(name) probeAppend(PROBE_PLACE, PROBE_SCOPE, 0u, uvec4(0u))
 #define PROBE_OBJECT_OPEN(name) probeAppend(PROBE_PLACE, PROBE_OBJECT, 0u, uvec4(0u))
+#define PROBE_REOPEN(name) probeAppend(PROBE_PLACE, PROBE_SCOPE_AGAIN, 0u, uvec4(0u))
 #define PROBE_CLOSE(name) probeAppend(PROBE_PLACE, PROBE_SCOPE_END, 0u, uvec4(0u))
 #define PROBE_ABOUT(pixel) probeOn = probeOn || probeAsksFor(pixel)
 #define PROBE_START(pixel) probeStart(pixel)
@@ -75,6 +77,7 @@ void probeItemEnd() {
 #define PROBE_TEXT_IF(name, words, condition)
 #define PROBE_OPEN(name)
 #define PROBE_OBJECT_OPEN(name)
+#define PROBE_REOPEN(name)
 #define PROBE_CLOSE(name)
 #define PROBE_ABOUT(pixel)
 #define PROBE_START(pixel)

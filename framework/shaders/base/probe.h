@@ -18,12 +18,13 @@ const uint PROBE_FLOAT = 0u;
 const uint PROBE_INT = 1u;
 const uint PROBE_UINT = 2u;
 const uint PROBE_BOOL = 3u;
-const uint PROBE_CHOICE_OF = 4u;  // number of a word in the macro's line
-const uint PROBE_WORDS = 5u;      // the text in the macro's line
-const uint PROBE_SCOPE = 6u;      // a list gets another member, which the following records belong to
-const uint PROBE_OBJECT = 7u;     // the same for a member that is there once
-const uint PROBE_SCOPE_END = 8u;
-const uint PROBE_ITEM_END = 9u;   // of all scopes
+const uint PROBE_CHOICE_OF = 4u;    // number of a word in the macro's line
+const uint PROBE_WORDS = 5u;        // the text in the macro's line
+const uint PROBE_SCOPE = 6u;        // a list gets another member, which the following records belong to
+const uint PROBE_OBJECT = 7u;       // the same for a member that is there once
+const uint PROBE_SCOPE_AGAIN = 8u;  // the list's last member goes on
+const uint PROBE_SCOPE_END = 9u;
+const uint PROBE_ITEM_END = 10u;    // of all scopes
 
 struct ProbeHead {
     ivec2 pixel;    // that is asked for; negative: none
