@@ -285,6 +285,7 @@ void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, 
     PROBE(bsdfPdf, value.pdf);
     PROBE(toLight, d.way);
     reachLight(t, value.all * d.light.radianceOverPdf * (stored ? vertexDensity(w, d.light) : 1.0), share, 0.0);
+    PROBE_TEXT_IF(black, "the light sends nothing here, or nothing of it is scattered", t.path.F == vec3(0.0));
     if (stored) {
         float G = connectionTerm(w, d.light);
         PROBE_FACTOR(reconnection, G, t.path.G);
