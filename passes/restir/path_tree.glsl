@@ -328,7 +328,7 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
         if (j >= 2u) direction = arrival(w, hit, p.from, direction);
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - p.from);
-        PROBE_VERTEX(s);
+        PROBE_SURFACE(s);
         vec3 left = segmentTransmittance(w, s, distance);
         p.throughput *= left;
         PROBE(throughput, p.throughput);

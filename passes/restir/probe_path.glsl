@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What `lodestir probe` tells of paths: reservoirs, vertices, factors of Jacobians (base/probe.glsl). Nothing where nothing is probed.
+// What `lodestir probe` tells of paths: reservoirs, shifts, factors of Jacobians (base/probe.glsl). Nothing where nothing is probed.
 #include "base/probe.glsl"
+#include "surface/probe_surface.glsl"
 #ifdef PROBING
 #include "base/random.glsl"
-#include "bsdf/material.glsl"
 #include "restir/jacobian.glsl"
 #include "restir/sample_hit.h"
 
@@ -28,17 +28,6 @@ void probeReservoir(uint place, Reservoir r) {
         PROBE(radiance, r.radiance);
     }
     probeAppend(place, PROBE_SCOPE_END, 0u, uvec4(0u));
-}
-
-void probeVertex(Surface s) {
-    PROBE(position, s.position);
-    PROBE(normal, s.normal);
-    PROBE(shadingNormal, s.shadingNormal);
-    PROBE(uv, s.uv);
-    PROBE(barycentrics, s.barycentrics);
-    PROBE(instance, s.instance);
-    PROBE(primitive, s.primitive);
-    PROBE(material, s.material);
 }
 
 // One factor of a Jacobian: `y` of the shifted path over `x` of the base path.
@@ -69,13 +58,11 @@ void probeShifted(vec3 F, float jacobian) {
 }
 
 #define PROBE_RESERVOIR(name, r) probeReservoir(PROBE_PLACE, r)
-#define PROBE_VERTEX(s) probeVertex(s)
 #define PROBE_FACTOR(name, y, x) probeFactor(PROBE_PLACE, y, x)
 #define PROBE_SHIFT(way, from, to) probeShift(way, from, to)
 #define PROBE_SHIFTED(F, jacobian) probeShifted(F, jacobian)
 #else
 #define PROBE_RESERVOIR(name, r)
-#define PROBE_VERTEX(s)
 #define PROBE_FACTOR(name, y, x)
 #define PROBE_SHIFT(way, from, to)
 #define PROBE_SHIFTED(F, jacobian)

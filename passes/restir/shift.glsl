@@ -338,7 +338,7 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
         if (j >= 2u) direction = arrival(w, hit, t.from, direction);
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - t.from);
-        PROBE_VERTEX(s);
+        PROBE_SURFACE(s);
         t.throughput *= segmentTransmittance(w, s, distance);
         if (j == 1u && !t.carried) t.hit.uv = s.uv;
         if (j == 1u) t.criteria = criteriaOf(rules, t.path.seed, distance, abs(dot(s.normal, s.view)));

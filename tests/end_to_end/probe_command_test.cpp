@@ -92,10 +92,19 @@ double productOf(const OrderedJson& shift) {
 const glm::uvec2 small{48, 32};
 constexpr int step = 11;
 
-class ProbeGraphs : public testing::TestWithParam<std::tuple<const char*, const char*, const char*>> {};
+struct GraphCase {
+    const char *graph, *variant, *scene;
+};
+std::string nameOf(const testing::TestParamInfo<GraphCase>& test) {
+    std::string name = std::string(test.param.graph) + "_" + test.param.variant;
+    std::ranges::replace_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+    return name;
+}
+class ProbeBits : public testing::TestWithParam<GraphCase> {};
+class ProbeReuse : public testing::TestWithParam<GraphCase> {};
 
 // If this fails, what is told is not what happens in a run.
-TEST_P(ProbeGraphs, AProbedRunHasTheBitsOfAnyOther) {
+TEST_P(ProbeBits, AProbedRunHasTheBitsOfAnyOther) {
     const auto [graph, variant, scene] = GetParam();
     const Path file = sourceFolder / "graphs" / graph;
     Probed probed(file, scene, small, variant);
@@ -110,7 +119,7 @@ TEST_P(ProbeGraphs, AProbedRunHasTheBitsOfAnyOther) {
     Session plain(options);
     for (int frame = 0; frame < 4; ++frame) {
         if (frame < 3) probed.run();
-        else probed.ask("initial", {20, 12});
+        else probed.ask("", {20, 12});
         plain.runner().run();
         for (const std::string& port : ports)
             EXPECT_TRUE(probed.session().runner().readBytes(findSource(probed.session().graph(), port)) ==
@@ -119,7 +128,7 @@ TEST_P(ProbeGraphs, AProbedRunHasTheBitsOfAnyOther) {
 }
 
 // If this fails, weights, targets or numbers are not those that chose.
-TEST_P(ProbeGraphs, WhatIsKeptFollowsFromWhatIsTold) {
+TEST_P(ProbeReuse, WhatIsKeptFollowsFromWhatIsTold) {
     const auto [graph, variant, scene] = GetParam();
     Probed probed(sourceFolder / "graphs" / graph, scene, small, variant);
     for (int i = 0; i < 2; ++i) probed.run();
@@ -174,15 +183,14 @@ TEST_P(ProbeGraphs, WhatIsKeptFollowsFromWhatIsTold) {
     EXPECT_GT(held, 10u);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Graphs, ProbeGraphs,
-    testing::Values(std::tuple("restir_pt.json", "", "ensemble_glossy"), std::tuple("restir_pt.json", "paired", "ensemble_moving"),
-                    std::tuple("restir_pt_enhanced.json", "", "ensemble_lights"), std::tuple("restir_lod.json", "", "ensemble_moving")),
-    [](const auto& test) {
-        std::string name = std::string(std::get<0>(test.param)) + "_" + std::get<1>(test.param);
-        std::ranges::replace_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
-        return name;
-    });
+const GraphCase withReuse[] = {{"restir_pt.json", "", "ensemble_glossy"},
+                               {"restir_pt.json", "paired", "ensemble_moving"},
+                               {"restir_pt_enhanced.json", "", "ensemble_lights"},
+                               {"restir_lod.json", "", "ensemble_moving"}};
+const GraphCase others[] = {{"path_tracer.json", "", "ensemble_glass"}, {"restir_pt_2022.json", "", "ensemble_glossy"}};
+INSTANTIATE_TEST_SUITE_P(Reuse, ProbeReuse, testing::ValuesIn(withReuse), nameOf);
+INSTANTIATE_TEST_SUITE_P(Reuse, ProbeBits, testing::ValuesIn(withReuse), nameOf);
+INSTANTIATE_TEST_SUITE_P(Others, ProbeBits, testing::ValuesIn(others), nameOf);
 
 class ProbeWeights : public FolderTest {
 protected:
@@ -205,6 +213,27 @@ TEST_F(ProbeWeights, ContributionTimesWeightIsTheImage) {
         lit += shown.x > 0;
         if (kept.contains("F")) expectNear(shown, vectorOf(kept.at("F")) * kept.at("W").get<float>(), 1e-6f);
         else EXPECT_EQ(shown, glm::vec3(0));
+    }
+    EXPECT_GT(lit, 6u);
+}
+
+// The same of a path tracer: what it met and what it sampled, by throughput and share, is the pixel.
+TEST_F(ProbeWeights, VerticesAddUpToTheImage) {
+    constexpr int samples = 3;
+    Probed probed(graph({{"trace", {{"type", "path_tracer"}, {"set", {{"spp", samples}, {"bounces", 4}}}}}}, "trace"), "ensemble_glass", small);
+    std::size_t lit = 0;
+    for (const glm::ivec2 pixel : someOf(small, step)) {
+        const OrderedJson paths = probed.ask("trace", pixel).at(0).at("paths");
+        ASSERT_EQ(paths.size(), std::size_t(samples));
+        glm::vec3 sum(0);
+        for (const OrderedJson& path : paths)
+            for (const OrderedJson& vertex : path.at("vertices")) {
+                if (vertex.contains("emission")) sum += vectorOf(vertex.at("throughput")) * vectorOf(vertex.at("emission")) * vertex.at("emissionShare").get<float>();
+                if (vertex.contains("arrives")) sum += vectorOf(vertex.at("lightSample").at("adds")) * vectorOf(vertex.at("arrives"));
+            }
+        const glm::vec3 shown = probed.color("trace.color", pixel);
+        expectNear(shown, sum / float(samples), 1e-5f);
+        lit += shown.x > 0;
     }
     EXPECT_GT(lit, 6u);
 }

@@ -28,7 +28,7 @@ uint probeInvocation = 0u;
 
 void probeAppend(uint place, uint kind, uint count, uvec4 numbers) {
     if (!probeOn) return;
-    ProbeMemory memory = ProbeMemory(passBlock().probe);
+    ProbeMemory memory = ProbeMemory(passBlock().probeMemory);
     uint i = atomicAdd(memory.head.count, 1u);
     if (i < memory.head.capacity) memory.at[i] = ProbeRecord(place, kind, count, probeInvocation, numbers);
 }
@@ -46,7 +46,7 @@ void probeWords(uint place, bool said) {
     if (said) probeAppend(place, PROBE_WORDS, 0u, uvec4(0u));
 }
 
-bool probeAsksFor(ivec2 pixel) { return ProbeMemory(passBlock().probe).head.pixel == pixel; }
+bool probeAsksFor(ivec2 pixel) { return ProbeMemory(passBlock().probeMemory).head.pixel == pixel; }
 
 // An invocation begins, a driver's item ends.
 void probeStart(ivec2 pixel) {

@@ -100,6 +100,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     if (r.confidence == 0) return shiftOfNothing();
     PROBE_SHIFT(way, splats || way == BACK ? pixel : r.before, r.landing);
     PROBE(jacobianOfMap, mapped.jacobian);
+    PROBE(jacobianOnFilm, jacobian / mapped.jacobian);
     return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
 }
 
