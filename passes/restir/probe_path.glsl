@@ -20,7 +20,7 @@ void probeReservoir(uint place, Reservoir r) {
         PROBE(madeAsSample, r.seed.y ^ streamSeed(uvec2(0u), 0u, runSeed(), 0u).y);
         PROBE(segments, s.d);
         PROBE(k, s.k);
-        PROBE_CHOICE(reconnection, reconnectionKind(s), "none|surface|surface, then a light sample|emitter|environment|light sample");
+        PROBE_CHOICE(reconnectsTo, reconnectionKind(s), "nothing|surface|surface, then a light sample|emitter|environment|light sample");
         PROBE_CHOICE(technique, s.nee, "BSDF sampling|light sampling");
         PROBE_CHOICE(light, s.light, "triangle|environment|punctual");
         PROBE(lightPdf, r.lightPdf);

@@ -170,8 +170,8 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
     if (!target) t.state = SHIFT_DONE;
     if (target && !environment) {
         float G = connectionTerm(t.from, s);
-        PROBE_FACTOR(reconnection, G, t.path.G);
         t.jacobian *= reconnectionJacobian(G, t.path.G);
+        PROBE_FACTOR(reconnection, G, t.path.G);
         t.path.G = G;
     }
 }
@@ -288,8 +288,8 @@ void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, 
     PROBE_TEXT_IF(black, "the light sends nothing here, or nothing of it is scattered", t.path.F == vec3(0.0));
     if (stored) {
         float G = connectionTerm(w, d.light);
-        PROBE_FACTOR(reconnection, G, t.path.G);
         t.jacobian *= reconnectionJacobian(G, t.path.G);
+        PROBE_FACTOR(reconnection, G, t.path.G);
         t.path.G = G;
     }
     t.ray = shadowRay(w, s, d.light);
@@ -299,11 +299,11 @@ void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, 
 /// x_k between y_{k-1} and what follows it, which is kept or, `refresh`, walked again. `sampled`: light sampling at x_k found the light.
 void passConnection(inout Shift t, World w, Surface s, Departure d, BsdfValue value, bool sampled, float pdfLight, float share) {
     float G = connectionTerm(t.from, s);
-    PROBE_FACTOR(reconnection, G, t.path.G);
     PROBE(share, share);
     PROBE(lobePdf, value.onePdf);
     PROBE(pdf, value.pdf);
     t.jacobian *= reconnectionJacobian(G, t.path.G);
+    PROBE_FACTOR(reconnection, G, t.path.G);
     t.path.G = G;
     if (d.towards == TOWARDS_LIGHT) {
         // The light sample's numbers stay, its direction doesn't: d omega_y / d omega_x is the quotient of the densities.

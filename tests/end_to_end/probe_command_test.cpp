@@ -203,8 +203,12 @@ protected:
 
 // What is shown where the image is F W of the kept path alone.
 TEST_F(ProbeWeights, ContributionTimesWeightIsTheImage) {
-    Probed probed(graph({{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})}, {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))},
-                         {"shade", shadeNode("temporal")}}, "shade"), "ensemble_glossy", small);
+    const Path file = graph({{"hits", hitsNode()},
+                             {"initial", initialNode({{"bounces", 3}})},
+                             {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))},
+                             {"shade", shadeNode("temporal")}},
+                            "shade");
+    Probed probed(file, "ensemble_glossy", small);
     for (int i = 0; i < 2; ++i) probed.run();
     std::size_t lit = 0;
     for (const glm::ivec2 pixel : someOf(small, step)) {
@@ -228,7 +232,8 @@ TEST_F(ProbeWeights, VerticesAddUpToTheImage) {
         glm::vec3 sum(0);
         for (const OrderedJson& path : paths)
             for (const OrderedJson& vertex : path.at("vertices")) {
-                if (vertex.contains("emission")) sum += vectorOf(vertex.at("throughput")) * vectorOf(vertex.at("emission")) * vertex.at("emissionShare").get<float>();
+                if (vertex.contains("emission"))
+                    sum += vectorOf(vertex.at("throughput")) * vectorOf(vertex.at("emission")) * vertex.at("emissionShare").get<float>();
                 if (vertex.contains("arrives")) sum += vectorOf(vertex.at("lightSample").at("adds")) * vectorOf(vertex.at("arrives"));
             }
         const glm::vec3 shown = probed.color("trace.color", pixel);
@@ -240,8 +245,11 @@ TEST_F(ProbeWeights, VerticesAddUpToTheImage) {
 
 // The balance heuristic of two: both techniques' weights of one path, from what is told, sum to 1.
 TEST_F(ProbeWeights, TechniquesShareEachPath) {
-    Probed probed(graph({{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})}, {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))}},
-                        "temporal.color"), "ensemble_moving", small);
+    const Path file = graph({{"hits", hitsNode()},
+                             {"initial", initialNode({{"bounces", 3}})},
+                             {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))}},
+                            "temporal.color");
+    Probed probed(file, "ensemble_moving", small);
     for (int i = 0; i < 2; ++i) probed.run();
     std::size_t shared = 0;
     for (const glm::ivec2 pixel : someOf(small, step)) {
@@ -266,8 +274,11 @@ TEST_F(ProbeWeights, TechniquesShareEachPath) {
 
 // Pairwise: the own path has its share of the beginning and one from each neighbour, and no more; a neighbour's is what the comparison of two gives.
 TEST_F(ProbeWeights, NeighboursTakeTheirSharesFromTheOwnPath) {
-    Probed probed(graph({{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})},
-                         {"spatial", node("spatial_reuse", pathsOf("initial"), {{"radius", 6}, {"neighbours", 4}})}}, "spatial.color"), "ensemble_glossy", small);
+    const Path file = graph({{"hits", hitsNode()},
+                             {"initial", initialNode({{"bounces", 3}})},
+                             {"spatial", node("spatial_reuse", pathsOf("initial"), {{"radius", 6}, {"neighbours", 4}})}},
+                            "spatial.color");
+    Probed probed(file, "ensemble_glossy", small);
     std::size_t compared = 0;
     for (const glm::ivec2 pixel : someOf(small, step)) {
         const OrderedJson told = probed.ask("spatial", pixel).at(0);
@@ -297,8 +308,11 @@ TEST_F(ProbeWeights, NeighboursTakeTheirSharesFromTheOwnPath) {
 
 // There and back: both Jacobians of a path that returns, and both shifts' ends.
 TEST_F(ProbeWeights, ThereAndBackIsOne) {
-    Probed probed(graph({{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 3}})}, {"check", node("shift_check", pathsOf("initial"), {{"radius", 6}})}}, "check.color"),
-                  "ensemble_glossy", small);
+    const Path file = graph({{"hits", hitsNode()},
+                             {"initial", initialNode({{"bounces", 3}})},
+                             {"check", node("shift_check", pathsOf("initial"), {{"radius", 6}})}},
+                            "check.color");
+    Probed probed(file, "ensemble_glossy", small);
     std::size_t returned = 0;
     double farthest = 1;
     for (const glm::ivec2 pixel : someOf(small, step)) {

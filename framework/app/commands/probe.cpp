@@ -95,7 +95,9 @@ void addProbe(CLI::App& app, std::function<int()>& run) {
     Command command(app, "probe", "Prints what happened to one pixel in one frame, as JSON: paths, shifts, weights, ports.");
     options->session.addGraph(command);
     command.taken<std::string>("--pixel", [options](const std::string& v) { options->pixel = readPixel(v); }, "X,Y from the upper left").required();
-    command.option("--frame", options->frame, "number of the frame; those before it are rendered first").within(0, std::numeric_limits<int>::max()).showDefault();
+    command.option("--frame", options->frame, "number of the frame; those before it are rendered first")
+        .within(0, std::numeric_limits<int>::max())
+        .showDefault();
     command.does(run, [options] { return probePixel(*options); });
 }
 
