@@ -43,7 +43,8 @@ const std::set<std::string_view>& glslWords() {
 const std::set<std::string_view>& ownWords() {
     static const std::set<std::string_view> words{
         "main", "push",       "params",    "frame",   "passBlock",    "pixel",      "inside",    "pixelIndex", "argument",   "warming",
-        "skip", "frameIndex", "frameSize", "runSeed", "passSalt", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba"};
+        "skip", "frameIndex", "frameSize", "runSeed", "passSalt", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba",
+        "probeMemory"};
     return words;
 }
 

@@ -114,6 +114,7 @@ private:
         line("    FrameInfo frame;");
         for (const Port* port : pass_.ports) line("    PortRecord {};", readName(*port));
         if (hasUniforms) line("    Params params;");
+        line("#ifdef PROBING\n    uint64_t probeMemory;  // ProbeMemory\n#endif");
         line("}};");
         line("layout(push_constant, scalar) uniform PushConstants {{ Push push; }};");
         line("PassBlock passBlock() {{ return PassBlock(push.block); }}");

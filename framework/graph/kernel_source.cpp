@@ -43,12 +43,14 @@ KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const P
     std::ranges::move(sceneFacts(scene), std::back_inserter(source.defines));
     if (usesPersistentGroups(device)) source.defines.emplace_back("TRACE_PERSISTENT", "1");
     if (options.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
+    if (options.probe) source.defines.emplace_back("PROBING", "1");
     if (options.countSteps) source.defines.emplace_back("COUNT_STEPS", "1");
 
     KernelSource kernel{.name = n.name + ": " + std::string(shader)};
     const gpu::IncludeClosure closure(source.file, source.folders, source.generated);
     kernel.traces = std::ranges::any_of(closure.files(), isDriver);
     if (kernel.traces) source.defines.emplace_back("TRACE_DRIVER", "1");
+    if (options.probe) kernel.probes = std::make_shared<const ProbeSites>(probeSites(closure));
     kernel.readsTexels = source.texelReads;
     kernel.spirv = gpu::compileShader(source);
     if (gpu::touchesMemoryEarly(kernel.spirv.words))

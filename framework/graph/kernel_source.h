@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/gpu/pipeline.h>
 #include <framework/graph/graph.h>
+#include <framework/graph/probe.h>
 #include <framework/graph/runner.h>
 
 #include <string>
@@ -18,6 +19,7 @@ struct KernelSource {
     bool traces = false;        ///< includes trace/driver.glsl
     bool readsTexels = false;   ///< right only while all memory lies in the device's heap
     double milliseconds = 0;    ///< from GLSL
+    std::shared_ptr<const ProbeSites> probes;  ///< with RunnerOptions::probe
 
     Hash hash() const;  ///< of what the driver sees
 };

@@ -98,7 +98,7 @@ Kernel Kernels::make(int node, std::string_view shader) {
 
 Kernel Kernels::finish(const Key& key, const KernelSource& source, gpu::Pipeline pipeline, double milliseconds) {
     reports_.push_back({graph_.nodes[std::size_t(key.first)].name, key.second, source.spirv.cached, source.milliseconds, milliseconds});
-    return {std::move(pipeline), source.traces, source.readsTexels, source.spirv.files};
+    return {std::move(pipeline), source.traces, source.readsTexels, source.spirv.files, source.probes};
 }
 
 }  // namespace lodestir

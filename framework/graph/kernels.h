@@ -18,6 +18,7 @@ struct Kernel {
     bool traces = false;        ///< includes trace/driver.glsl
     bool readsTexels = false;   ///< right only while all memory lies in the device's heap
     std::vector<Path> files;    ///< include closure, for watching
+    std::shared_ptr<const ProbeSites> probes;  ///< with RunnerOptions::probe
 };
 
 class Kernels {

@@ -42,6 +42,10 @@ public:
             done += rows;
             if (rows == 0 || s_.slices_.full() || (s_.slices_.cuts() && work_.pieces.size() == maxPieces)) s_.handOver(work_);
         }
+        if (s_.probe_ && s_.probe_->asks()) {
+            s_.handOver(work_);
+            s_.probe_->told(node_, shader, arguments, kernel.probes);
+        }
     }
     void fill(const Port& port, std::uint32_t word) override {
         separate();

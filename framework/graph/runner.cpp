@@ -19,7 +19,7 @@ void Runner::State::allocate() {
     for (const GraphNode& node : graph_.nodes) {
         NodeState state;
         state.layout = blockLayout(*node.pass);
-        state.block = gpu::Buffer(device_, state.layout.bytes, gpu::Memory::upload, node.name + ": block");
+        state.block = gpu::Buffer(device_, state.layout.bytes + (probe_ ? sizeof(VkDeviceAddress) : 0), gpu::Memory::upload, node.name + ": block");
         nodes_.push_back(std::move(state));
     }
     historyValid_ = false;
@@ -82,6 +82,10 @@ void Runner::State::fillBlock(std::size_t node) {
         std::memcpy(block.data() + state.layout.ports[p], &record, sizeof record);
     }
     std::memcpy(state.block.mapped(), block.data(), block.size());
+    if (probe_) {
+        const VkDeviceAddress address = probe_->address();
+        std::memcpy(state.block.mapped() + block.size(), &address, sizeof address);
+    }
 }
 
 std::vector<std::uint64_t> Runner::State::inputVersions(std::size_t node) const {
@@ -232,6 +236,11 @@ void Runner::prepare(const std::function<void(std::size_t, std::size_t)>& progre
 }
 
 FrameReport Runner::run() { return state_->run(); }
+std::vector<ProbedDispatch> Runner::probe(glm::ivec2 pixel) {
+    state_->probe_->ask(pixel);
+    state_->run();
+    return state_->probe_->take();
+}
 std::uint32_t Runner::nextFrame() const { return state_->frame_; }
 void Runner::setFrame(std::uint32_t frame) { state_->frame_ = frame; }
 void Runner::reset() { state_->historyValid_ = false; }

@@ -4,6 +4,7 @@
 #include <framework/graph/header.h>
 #include <framework/graph/kernels.h>
 #include <framework/graph/port_memory.h>
+#include <framework/graph/probe_memory.h>
 #include <framework/graph/runner.h>
 #include <framework/graph/slices.h>
 #include <framework/graph/top_levels.h>
@@ -31,6 +32,7 @@ public:
           slices_(options_.slice),
           size_(graph.description.size),
           counters_(device, maxDispatches * counterStride, gpu::Memory::device, "tile counters") {
+        if (options_.probe) probe_.emplace(device);
         if (options_.rays == RayBody::rayQuery) topLevels_.emplace(device);
         allocate();
     }
@@ -53,6 +55,7 @@ public:
     std::unique_ptr<PortMemories> memories_;
     std::optional<WorldBuilder> world_;
     std::optional<TopLevels> topLevels_;  ///< with ray queries only
+    std::optional<ProbeMemory> probe_;
     gpu::Buffer counters_, ledger_, faults_, facts_;  ///< facts: ledger and faults, read back
     struct NodeState {
         BlockLayout layout;
