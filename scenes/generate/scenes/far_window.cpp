@@ -35,9 +35,9 @@ struct Stones {
 
 Stones addStones(Glb& glb) {
     Stones s{};
-    s.limestone = glb.addMaterial(glb.dressed({.name = "limestone"}, paintAshlar({0.70f, 0.62f, 0.49f}, 3, 768)));
+    s.limestone = glb.addMaterial(glb.dressed({.name = "limestone"}, paintAshlar({0.70f, 0.62f, 0.49f}, 3, 640)));
     s.column = glb.addMaterial(glb.dressed({.name = "column"}, paintMarble({{0.58f, 0.38f, 0.28f}, {0.76f, 0.66f, 0.56f}, 0.24f}, 8, 512)));
-    s.floor = glb.addMaterial(glb.dressed({.name = "marble_floor"}, paintMarbleFloor(carrara(), {{0.075f, 0.070f, 0.072f}, {0.34f, 0.31f, 0.28f}}, 5, 1024)));
+    s.floor = glb.addMaterial(glb.dressed({.name = "marble_floor"}, paintMarbleFloor(carrara(), {{0.075f, 0.070f, 0.072f}, {0.34f, 0.31f, 0.28f}}, 5, 896)));
     s.rim = glb.addMaterial(glb.dressed({.name = "rim"}, paintMarble(verde(), 9, 512)));
     s.vault = glb.addMaterial(glb.dressed({.name = "vault"}, paintPlaster({0.80f, 0.75f, 0.66f}, 4, 512)));
     // Still water over dark tiles: only what its surface reflects is to be seen.

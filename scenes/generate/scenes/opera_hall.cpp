@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An opera house seen from its stage: four tiers of boxes in a horseshoe, six hundred small lamps, gilded friezes, rows of velvet seats.
+// An opera house seen from its stage: four tiers of boxes in a horseshoe, over four hundred small lamps, gilded friezes, rows of velvet seats.
 #include <cmath>
 #include <numbers>
 #include <string>
