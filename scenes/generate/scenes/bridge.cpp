@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A bridge of two towers over a river after sunset, seen from a quay. A thousand lamps and windows light it; from any point most are far or hidden.
-#include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "kit/gothic_tower.h"
 #include "kit/lamps.h"
@@ -15,7 +13,6 @@
 #include "kit/random.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
-#include "kit/spline.h"
 #include "kit/still_life.h"
 #include "kit/truss.h"
 #include "kit/water.h"

@@ -16,7 +16,6 @@
 #include "kit/random.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
-#include "kit/spline.h"
 #include "kit/wood.h"
 
 namespace lodestir::generate {

@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "kit/arcade.h"
 #include "kit/cloth.h"
 #include "kit/foliage.h"
 #include "kit/marble.h"
 #include "kit/masonry.h"
-#include "kit/metals.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
 #include "kit/tableware.h"
@@ -78,19 +75,10 @@ void addShell(Glb& glb, const Stones& stone) {
     shell.add(stone.limestone, flat({aisle, 9.6f, front}, {-2 * aisle, 0, 0}, {0, -9.6f, 0}, ashlarSize));
     glb.addNode(shell);
 
-    const ArchBay bay{.width = bayLength, .height = cornice, .opening = bayLength - 1.0f, .sill = spring - 0.02f, .spring = spring, .depth = 0.62f};
-    Mesh wall = archBay(bay);
-    // What stands below the springing is the column's: the bay keeps its upper part only.
-    Mesh arch;
-    for (size_t i = 0; i < wall.indices.size(); i += 3) {
-        float top = 0;
-        for (size_t k = 0; k < 3; ++k) top = std::max(top, wall.vertices[wall.indices[i + k]].position.y);
-        if (top < spring - 0.01f) continue;
-        for (size_t k = 0; k < 3; ++k) arch.indices.push_back(arch.add(wall.vertices[wall.indices[i + k]]));
-    }
-    computeNormals(arch, 25);
+    const ArchBay bay{
+        .width = bayLength, .height = cornice, .opening = bayLength - 1.0f, .sill = spring - 0.02f, .spring = spring, .afloat = true, .depth = 0.62f};
     Model span{"arch", {}};
-    span.add(stone.limestone, inTiles(arch, ashlarSize));
+    span.add(stone.limestone, inTiles(archBay(bay), ashlarSize));
     span.add(stone.column, inTiles(archivolt(bay, 0.055f), slabSize));
     const int archMesh = glb.addMesh(span);
     Model shaft{"column", {}};
