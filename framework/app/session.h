@@ -24,9 +24,11 @@ struct SessionOptions {
     GraphOptions changes;
     RendererOptions renderer;
     std::vector<std::string> dumps;  ///< ports to be read after a frame
-    bool checkBounds = false, allBarriers = false, countSteps = false;
+    bool checkBounds = false, allBarriers = false, shareMemory = false, countSteps = false;
 
-    /// Adds the options that all rendering commands share.
+    /// Adds the options that say what is rendered on what.
+    void addGraph(Command& command);
+    /// These, and the others that all commands share which render one frame after the other.
     void addTo(Command& command);
 };
 
@@ -36,6 +38,8 @@ struct SessionParts {
     std::shared_ptr<Scene> scene;        ///< where it is of the graph's scene file
     std::function<void(Graph&)> adjust;  ///< sets parameters before anything is made of the graph
     double slice = 0;                    ///< RunnerOptions::slice
+    bool keepAll = false;                ///< RunnerOptions::keepAll
+    bool probe = false;                  ///< RunnerOptions::probe; what ports hold of pixels can be read, too
     /// Told how many of how many shaders are ready; empty: a line of progress on stderr.
     std::function<void(std::size_t done, std::size_t all)> compiled;
 };

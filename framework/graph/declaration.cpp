@@ -43,7 +43,8 @@ const std::set<std::string_view>& glslWords() {
 const std::set<std::string_view>& ownWords() {
     static const std::set<std::string_view> words{
         "main", "push",       "params",    "frame",   "passBlock",    "pixel",      "inside",    "pixelIndex", "argument",   "warming",
-        "skip", "frameIndex", "frameSize", "runSeed", "passSalt", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba"};
+        "skip", "frameIndex", "frameSize", "runSeed", "passSalt", "historyValid", "validating", "countRays", "isOutside",  "texelIndex", "asRgba",
+        "probeMemory"};
     return words;
 }
 
@@ -67,7 +68,8 @@ public:
         for (const Port* port : pass_.ports) checkGenerated(*port);
         for (const Port* port : pass_.ports) checkShape(*port);
         for (const Parameter* parameter : pass_.parameters) checkParameter(*parameter);
-        for (const Pass::Bypass& bypass : pass_.bypasses) checkBypass(bypass);
+        for (const Pass::Bypass& bypass : pass_.bypasses) checkLink("bypass", bypass);
+        for (const Pass::Bypass& over : pass_.overwrites) checkLink("overwriting", over);
     }
 
 private:
@@ -131,6 +133,8 @@ private:
         if (isHandle && (port.role == Port::Role::state || port.role == Port::Role::scratch))
             add(start + "is a handle, which can't be state or scratch");
         if (port.isInput() || isHandle) return;
+        if (port.count.kind == Count::Kind::reserved && port.role != Port::Role::scratch)
+            add(start + "is sized as the pass runs, but what it holds is asked for from outside", "only scratch can be");
         if (port.type.kind == PortType::Kind::image && !(port.extent.scale > 0)) add(start + "has no size", "its scale must be above 0");
         if (port.type.kind == PortType::Kind::buffer && port.count.number == 0) add(start + "has no elements");
         const std::string_view like = likeOf(port);
@@ -160,12 +164,12 @@ private:
         if ((whole && outOf(*whole)) || (number && outOf(*number))) add(fmt::format("{}has a default that is not {}", start, p.typeText()));
     }
 
-    void checkBypass(const Pass::Bypass& bypass) {
+    void checkLink(const std::string& kind, const Pass::Bypass& bypass) {
         const bool known = std::ranges::count(pass_.ports, bypass.in) + std::ranges::count(pass_.ports, bypass.out) == 2;
         if (!known || !bypass.in->isInput() || bypass.out->role != Port::Role::out) {
-            add("a bypass must lead from an input to an output of the pass");
+            add("a " + kind + " must lead from an input to an output of the pass");
         } else if (!bypass.in->type.isSame(bypass.out->type)) {
-            add(fmt::format("the bypass from \"{}\" to \"{}\" joins {} and {}", bypass.in->name, bypass.out->name, bypass.in->type.text(),
+            add(fmt::format("the {} from \"{}\" to \"{}\" joins {} and {}", kind, bypass.in->name, bypass.out->name, bypass.in->type.text(),
                             bypass.out->type.text()));
         }
     }

@@ -40,6 +40,7 @@ public:
         }
         if (port.count.kind == Count::Kind::fixed) return port.count.number;
         if (port.count.kind == Count::Kind::perPixel) return port.count.number * pixels(frame_);
+        if (port.count.kind == Count::Kind::reserved) return 0;
         const int like = indexOf(nodeIndex, port.count.like);
         return port.count.number * (isUnwired(nodeIndex, like) ? pixels(frame_) : count(nodeIndex, like));
     }

@@ -68,7 +68,7 @@ LODESTIR_API Json writeValue(const Parameter& parameter, const Value& value);
 
 /// Pixels of an image port (an input: its source's) in a frame of `frame` pixels; {0, 0} for an unwired input.
 LODESTIR_API glm::uvec2 sizeOf(const Graph& graph, int node, int port, glm::uvec2 frame);
-/// Elements of a buffer port, likewise; 1 for a handle.
+/// Elements of a buffer port, likewise; 1 for a handle, 0 where the pass reserves them as it runs.
 LODESTIR_API std::uint32_t countOf(const Graph& graph, int node, int port, glm::uvec2 frame);
 /// Bytes of one copy of what a port holds; 0 for an unwired input.
 LODESTIR_API std::size_t bytesOf(const Graph& graph, int node, int port, glm::uvec2 frame);

@@ -55,6 +55,7 @@ public:
                 if (!plan_.steps[s].barrier.empty() && !isDropped) ++barriers_;
                 if (!plan_.steps[s].onChange || changesIn(frame)) execute({frame, int(s), barriers_});
             }
+            readPinned(frame);
         }
         return std::move(hazards_);
     }
@@ -70,9 +71,10 @@ private:
             const Port& port = *node.pass->ports[p];
             if (port.isInput()) continue;
             const int r = plan_.resourceOf(index, int(p));
+            if (r < 0 && port.optional) continue;
             Copies& copies = copies_[std::size_t(r)];
             if (port.role == Port::Role::state) read(now, r, copies.current, copies.version);
-            if (plan_.resources[std::size_t(r)].history) copies.current = 1 - copies.previous;
+            if (plan_.resources[std::size_t(r)].copies == 2) copies.current = 1 - copies.previous;
             copies.version = now.frame;
             write(now, r, copies.current);
         }
@@ -84,13 +86,24 @@ private:
             return;
         }
         const Copies& copies = copies_[std::size_t(r)];
-        const bool other = prev && plan_.resources[std::size_t(r)].history;
+        const bool other = prev && plan_.resources[std::size_t(r)].copies == 2;
         read(now, r, other ? copies.previous : copies.current, prev ? copies.previousVersion : copies.version);
         // A value of this frame whose maker comes later, or comes never: the version is an old one, though memory and record agree.
         const PlanResource& resource = plan_.resources[std::size_t(r)];
         const bool makerRuns = !plan_.steps[std::size_t(plan_.stepOf(resource.node))].onChange || changesIn(now.frame);
         if (!prev && makerRuns && copies.version != now.frame)
             add(Hazard::Kind::wrongContent, now, {}, "reads " + nameOf(r) + " before it is made");
+    }
+
+    /// Whoever looks at a port waits for the frame, so only what it holds matters.
+    void readPinned(int frame) {
+        for (std::size_t i = 0; i < plan_.resources.size(); ++i) {
+            const PlanResource& resource = plan_.resources[i];
+            const Memory& memory = memoryOf(int(i), copies_[i].current);
+            if (!resource.pinned || (memory.resource == int(i) && memory.version == copies_[i].version)) continue;
+            add(Hazard::Kind::wrongContent, {frame, plan_.stepOf(resource.node), barriers_}, memory.written,
+                fmt::format("makes {}, which is asked for after the frame, but its memory was overwritten", nameOf(int(i))));
+        }
     }
 
     void read(const Moment& now, int r, int copy, int version) {

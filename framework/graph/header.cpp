@@ -114,6 +114,7 @@ private:
         line("    FrameInfo frame;");
         for (const Port* port : pass_.ports) line("    PortRecord {};", readName(*port));
         if (hasUniforms) line("    Params params;");
+        line("#ifdef PROBING\n    uint64_t probeMemory;  // ProbeMemory\n#endif");
         line("}};");
         line("layout(push_constant, scalar) uniform PushConstants {{ Push push; }};");
         line("PassBlock passBlock() {{ return PassBlock(push.block); }}");
@@ -145,11 +146,12 @@ private:
 
     void writePort(std::size_t i) {
         const Port& port = *pass_.ports[i];
-        const bool bound = !port.isInput() || bindings_[i].bound;
+        const bool bound = bindings_[i].bound;
         const Format format = port.isInput() ? bindings_[i].format : port.format;
         const std::string kind = port.type.kind == PortType::Kind::image && bound ? std::string(factsOf(format).name) : port.type.text();
-        line("\n// {} ({}{})", port.doc, kind, bound ? "" : ", unwired");
-        if (port.optional && startsWire(port)) line("#define HAS_{} {}", port.wire(), bound ? 1 : 0);
+        line("\n// {} ({}{})", port.doc, kind, bound ? "" : port.isInput() ? ", unwired" : ", not made");
+        if (!port.isInput() && !bound) return line("void store{}(ivec2 p, {} value) {{}}", capitalised(port.identifier()), factsOf(format).glsl);
+        if (port.isInput() && port.optional && startsWire(port)) line("#define HAS_{} {}", port.wire(), bound ? 1 : 0);
         switch (port.type.kind) {
         case PortType::Kind::image: bound ? writeImage(i, port, format) : writeNoImage(port); break;
         case PortType::Kind::buffer: bound ? writeBuffer(i, port) : writeNoBuffer(port); break;
@@ -230,12 +232,12 @@ private:
 
 }  // namespace
 
-std::vector<PortBinding> bindingsOf(const Graph& graph, int node) {
+std::vector<PortBinding> bindingsOf(const Graph& graph, const Plan& plan, int node) {
     const GraphNode& n = graph.nodes[std::size_t(node)];
     std::vector<PortBinding> bindings;
     for (std::size_t i = 0; i < n.inputs.size(); ++i) {
         const Port& port = *n.pass->ports[i];
-        const bool bound = !port.isInput() || n.inputs[i].has_value();
+        const bool bound = port.isInput() ? n.inputs[i].has_value() : !port.optional || plan.resourceOf(node, int(i)) >= 0;
         bindings.push_back({bound, bound && port.isInput() ? graph.port(*n.inputs[i]).format : port.format});
     }
     return bindings;

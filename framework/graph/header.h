@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes pass.glsl, the shader's view of one pass instance, and the layout of the block that the runner fills for it.
 #pragma once
-#include <framework/graph/graph.h>
+#include <framework/graph/plan.h>
 
 #include <cstddef>
 #include <optional>
@@ -11,19 +11,19 @@
 
 namespace lodestir {
 
-/// What the text of pass.glsl depends on beyond the declaration: is a port wired, and in which format an image really is.
+/// What the text of pass.glsl depends on beyond the declaration: is a port wired (an optional output: made), and in which format an image really is.
 struct PortBinding {
     bool bound = true;
     Format format = Format::rgba32f;
 };
 /// One per port of the node's pass.
-LODESTIR_API std::vector<PortBinding> bindingsOf(const Graph& graph, int node);
+LODESTIR_API std::vector<PortBinding> bindingsOf(const Graph& graph, const Plan& plan, int node);
 
 /// The text of pass.glsl. The first line of a shader is #include "pass.glsl".
 LODESTIR_API std::string passHeader(const Pass& pass, std::string_view owner, std::span<const PortBinding> bindings);
-inline std::string passHeader(const Graph& graph, int node) {
+inline std::string passHeader(const Graph& graph, const Plan& plan, int node) {
     const GraphNode& n = graph.nodes[static_cast<std::size_t>(node)];
-    return passHeader(*n.pass, n.name + " (" + n.type + ")", bindingsOf(graph, node));
+    return passHeader(*n.pass, n.name + " (" + n.type + ")", bindingsOf(graph, plan, node));
 }
 
 /// Byte offsets in PassBlock (scalar layout): FrameInfo at 0, then one PortRecord a port, then the uniform parameters, 4 bytes each

@@ -29,25 +29,28 @@ Hash KernelSource::hash() const {
     return hash;
 }
 
-KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options) {
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader,
+                          const RunnerOptions& options) {
     const GraphNode& n = graph.nodes[std::size_t(node)];
     const auto start = std::chrono::steady_clock::now();
     gpu::ShaderSource source;
     source.file = shaderOf(*n.plugin, shader);
     source.folders = includeFolders(*n.plugin);
-    source.generated["pass.glsl"] = passHeader(graph, node);
+    source.generated["pass.glsl"] = passHeader(graph, plan, node);
     source.texelReads = device.heap() && device.heap()->isWhole();
     constexpr const char* bodies[] = {"TRACE_PACKET", "TRACE_LANE", "TRACE_RAY_QUERY"};
     source.defines.emplace_back(bodies[std::size_t(options.rays)], "1");
     std::ranges::move(sceneFacts(scene), std::back_inserter(source.defines));
     if (usesPersistentGroups(device)) source.defines.emplace_back("TRACE_PERSISTENT", "1");
     if (options.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
+    if (options.probe) source.defines.emplace_back("PROBING", "1");
     if (options.countSteps) source.defines.emplace_back("COUNT_STEPS", "1");
 
     KernelSource kernel{.name = n.name + ": " + std::string(shader)};
     const gpu::IncludeClosure closure(source.file, source.folders, source.generated);
     kernel.traces = std::ranges::any_of(closure.files(), isDriver);
     if (kernel.traces) source.defines.emplace_back("TRACE_DRIVER", "1");
+    if (options.probe) kernel.probes = std::make_shared<const ProbeSites>(probeSites(closure));
     kernel.readsTexels = source.texelReads;
     kernel.spirv = gpu::compileShader(source);
     if (gpu::touchesMemoryEarly(kernel.spirv.words))

@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/gpu/pipeline.h>
 #include <framework/graph/graph.h>
+#include <framework/graph/probe.h>
 #include <framework/graph/runner.h>
 
 #include <string>
@@ -18,12 +19,14 @@ struct KernelSource {
     bool traces = false;        ///< includes trace/driver.glsl
     bool readsTexels = false;   ///< right only while all memory lies in the device's heap
     double milliseconds = 0;    ///< from GLSL
+    std::shared_ptr<const ProbeSites> probes;  ///< with RunnerOptions::probe
 
     Hash hash() const;  ///< of what the driver sees
 };
 
 /// Reads and compiles a shader of a node for a device and a scene. Error with the compiler's messages.
-KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Scene& scene, int node, std::string_view shader, const RunnerOptions& options);
+KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader,
+                          const RunnerOptions& options);
 
 /// Persistent workgroups: a few that fetch tiles from a counter, because a CPU driver spreads workgroups over its threads beforehand.
 inline bool usesPersistentGroups(const gpu::Device& device) { return device.facts().type == "cpu"; }

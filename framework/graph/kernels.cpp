@@ -67,7 +67,7 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
     parallelFor(keys.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             try {
-                read[i] = kernelSource(device_, graph_, scene_, keys[i].first, keys[i].second, options_);
+                read[i] = kernelSource(device_, graph_, plan_, scene_, keys[i].first, keys[i].second, options_);
             } catch (const Error&) {}  // told when it is asked for, if it is
         }
     });
@@ -88,7 +88,7 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
 }
 
 Kernel Kernels::make(int node, std::string_view shader) {
-    const KernelSource source = kernelSource(device_, graph_, scene_, node, shader, options_);
+    const KernelSource source = kernelSource(device_, graph_, plan_, scene_, node, shader, options_);
     Kernel kernel;
     compileAhead(device_, std::span(&source, 1), [&](std::size_t, gpu::Pipeline pipeline, double milliseconds) {
         kernel = finish({node, std::string(shader)}, source, std::move(pipeline), milliseconds);
@@ -98,7 +98,7 @@ Kernel Kernels::make(int node, std::string_view shader) {
 
 Kernel Kernels::finish(const Key& key, const KernelSource& source, gpu::Pipeline pipeline, double milliseconds) {
     reports_.push_back({graph_.nodes[std::size_t(key.first)].name, key.second, source.spirv.cached, source.milliseconds, milliseconds});
-    return {std::move(pipeline), source.traces, source.readsTexels, source.spirv.files};
+    return {std::move(pipeline), source.traces, source.readsTexels, source.spirv.files, source.probes};
 }
 
 }  // namespace lodestir

@@ -18,12 +18,13 @@ struct Kernel {
     bool traces = false;        ///< includes trace/driver.glsl
     bool readsTexels = false;   ///< right only while all memory lies in the device's heap
     std::vector<Path> files;    ///< include closure, for watching
+    std::shared_ptr<const ProbeSites> probes;  ///< with RunnerOptions::probe
 };
 
 class Kernels {
 public:
-    Kernels(const gpu::Device& device, const Graph& graph, const Scene& scene, const RunnerOptions& options)
-        : device_(device), graph_(graph), scene_(scene), options_(options) {}
+    Kernels(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, const RunnerOptions& options)
+        : device_(device), graph_(graph), plan_(plan), scene_(scene), options_(options) {}
     /// Makes what the nodes may ask for, several kernels at once where the driver compiles on the CPU; `progress` is told how many of how many
     /// are ready. Shaders that don't compile are left to be told of when they are asked for.
     void prepare(const std::vector<int>& nodes, const std::function<void(std::size_t, std::size_t)>& progress);
@@ -41,6 +42,7 @@ private:
 
     const gpu::Device& device_;
     const Graph& graph_;
+    const Plan& plan_;
     const Scene& scene_;
     const RunnerOptions& options_;
     std::map<Key, Kernel> kernels_;

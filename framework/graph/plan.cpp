@@ -36,7 +36,7 @@ public:
         findNeeded();
         orderSteps();
         listResources();
-        if (options_.aliasing) shareMemory();
+        shareMemory();
         placeBarriers();
         return std::move(plan_);
     }
@@ -103,7 +103,9 @@ private:
                 r.pinned = std::ranges::any_of(pinned_, [&](const Source& s) { return s.node == r.node && s.port == r.port; });
                 r.keeps =
                     port.role == Port::Role::state || (port.role == Port::Role::out && node(int(i)).pass->cadence == Cadence::onChange);
-                for (std::size_t s = 0; s < plan_.steps.size(); ++s) followReader(int(s), r, port);
+                bool isRead = r.pinned;
+                for (std::size_t s = 0; s < plan_.steps.size(); ++s) isRead = followReader(int(s), r, port) || isRead;
+                if (port.optional && !isRead && !options_.keepAll) continue;
                 if (r.keeps) r.firstStep = 0;
                 if (r.keeps || r.pinned) r.lastStep = last;
                 plan_.resources.push_back(r);
@@ -111,40 +113,94 @@ private:
         }
     }
 
-    void followReader(int step, PlanResource& r, const Port& port) const {
+    /// Does the step read it?
+    bool followReader(int step, PlanResource& r, const Port& port) const {
+        bool reads = false;
         for (const auto& input : node(plan_.steps[std::size_t(step)].node).inputs) {
             if (!input || input->node != r.node || input->port != r.port) continue;
+            reads = true;
             if (!input->prev) r.lastStep = std::max(r.lastStep, step);
-            if (input->prev && port.role != Port::Role::state) r.history = r.keeps = true;
+            if (!input->prev || port.role == Port::Role::state) continue;
+            r.history = r.keeps = true;
+            // The CPU writes handles while last frame's are in use.
+            if (port.type.kind == PortType::Kind::handle || step >= plan_.stepOf(r.node)) r.copies = 2;
         }
+        return reads;
     }
 
-    /// First fit, the big ones first; two resources share memory when no step lies in both lifetimes.
-    void shareMemory() {
-        std::vector<int> order;
-        for (std::size_t i = 0; i < plan_.resources.size(); ++i) {
-            const PlanResource& r = plan_.resources[i];
-            if (!r.keeps && !r.pinned && graph_.port({r.node, r.port}).type.kind != PortType::Kind::handle) order.push_back(int(i));
+    /// Resources that lie in one place, one made over the other, and how long they live together.
+    struct Piece {
+        std::vector<int> resources;
+        int firstStep, lastStep;
+        std::size_t bytes;
+    };
+
+    /// The resource over which `r` may be written, -1: none. Its content must not be needed after the step that makes r, nor r's before it.
+    int overwrittenBy(const PlanResource& r) const {
+        if (r.keeps || options_.keepAll) return -1;
+        const GraphNode& n = node(r.node);
+        for (const Pass::Bypass& over : n.pass->overwrites) {
+            if (over.out != n.pass->ports[std::size_t(r.port)]) continue;
+            const auto& source = n.inputs[std::size_t(std::ranges::find(n.pass->ports, over.in) - n.pass->ports.begin())];
+            if (!source || source->prev || std::ranges::count(n.inputs, source) > 1) continue;
+            const int found = plan_.resourceOf(source->node, source->port);
+            const PlanResource& q = plan_.resources[std::size_t(found)];
+            const bool isAlike = graph_.port(*source).format == over.out->format && bytesOf(found) == bytesOf(plan_.resourceOf(r.node, r.port));
+            if (isAlike && !q.keeps && !q.pinned && q.lastStep == plan_.stepOf(r.node)) return found;
         }
-        const auto bytes = [&](int i) {
-            return bytesOf(graph_, plan_.resources[std::size_t(i)].node, plan_.resources[std::size_t(i)].port, options_.frame);
-        };
-        std::ranges::stable_sort(order, [&](int a, int b) { return bytes(a) > bytes(b); });
-        std::vector<std::vector<int>> groups;
-        for (const int i : order) {
-            const PlanResource& r = plan_.resources[std::size_t(i)];
-            const auto fits = [&](const std::vector<int>& group) {
-                return std::ranges::all_of(group, [&](int other) {
-                    const PlanResource& o = plan_.resources[std::size_t(other)];
-                    return r.lastStep < o.firstStep || o.lastStep < r.firstStep;
+        return -1;
+    }
+    std::size_t bytesOf(int resource) const {
+        const PlanResource& r = plan_.resources[std::size_t(resource)];
+        return lodestir::bytesOf(graph_, r.node, r.port, options_.frame);
+    }
+
+    /// What lies over what, one chain after the other.
+    std::vector<Piece> findPieces() const {
+        const std::size_t count = plan_.resources.size();
+        std::vector<int> over(count), under(count, -1);
+        for (std::size_t i = 0; i < count; ++i) {
+            over[i] = overwrittenBy(plan_.resources[i]);
+            if (over[i] >= 0) under[std::size_t(over[i])] = int(i);
+        }
+        std::vector<Piece> pieces;
+        for (std::size_t i = 0; i < count; ++i) {
+            if (over[i] >= 0) continue;
+            Piece piece{{}, plan_.resources[i].firstStep, plan_.resources[i].lastStep, bytesOf(int(i))};
+            for (int at = int(i); at >= 0; at = under[std::size_t(at)]) {
+                piece.resources.push_back(at);
+                piece.lastStep = plan_.resources[std::size_t(at)].lastStep;
+            }
+            pieces.push_back(std::move(piece));
+        }
+        return pieces;
+    }
+
+    bool canShare(int resource) const {
+        const PlanResource& r = plan_.resources[std::size_t(resource)];
+        const Port& port = graph_.port({r.node, r.port});
+        return !r.keeps && port.type.kind != PortType::Kind::handle && port.count.kind != Count::Kind::reserved;
+    }
+
+    /// First fit, the big ones first; with `sharing` pieces share memory when no step lies in both lifetimes.
+    void shareMemory() {
+        std::vector<Piece> pieces = findPieces();
+        std::ranges::stable_sort(pieces, std::ranges::greater(), &Piece::bytes);
+        std::vector<std::vector<Piece>> groups;
+        for (const Piece& piece : pieces) {
+            const auto shares = [&](const Piece& p) { return options_.sharing && std::ranges::all_of(p.resources, [&](int i) { return canShare(i); }); };
+            const auto fits = [&](const std::vector<Piece>& group) {
+                return shares(piece) && std::ranges::all_of(group, [&](const Piece& o) {
+                    return shares(o) && (piece.lastStep < o.firstStep || o.lastStep < piece.firstStep);
                 });
             };
             const auto group = std::ranges::find_if(groups, fits);
-            group == groups.end() ? groups.push_back({i}) : group->push_back(i);
+            group == groups.end() ? groups.push_back({piece}) : group->push_back(piece);
         }
-        for (const std::vector<int>& group : groups) {
-            if (group.size() < 2) continue;
-            for (const int i : group) plan_.resources[std::size_t(i)].group = plan_.groups;
+        for (const std::vector<Piece>& group : groups) {
+            if (group.size() == 1 && group[0].resources.size() == 1) continue;
+            for (const Piece& piece : group)
+                for (const int i : piece.resources) plan_.resources[std::size_t(i)].group = plan_.groups;
             ++plan_.groups;
         }
     }
@@ -152,7 +208,7 @@ private:
     /// Copy 0 or 1 of a resource with history; even and odd frames swap them.
     int memoryOf(int resource, bool otherCopy) const {
         const PlanResource& r = plan_.resources[std::size_t(resource)];
-        return r.group >= 0 ? -1 - r.group : 2 * resource + (r.history && otherCopy ? 1 : 0);
+        return r.group >= 0 ? -1 - r.group : 2 * resource + (r.copies == 2 && otherCopy ? 1 : 0);
     }
 
     std::vector<Access> accessesOf(int step, bool oddFrame) const {
@@ -166,7 +222,7 @@ private:
                 accesses.push_back({memoryOf(r, oddFrame != n.inputs[p]->prev), r, false});
             } else {
                 const int r = plan_.resourceOf(index, int(p));
-                accesses.push_back({memoryOf(r, oddFrame), r, true});
+                if (r >= 0) accesses.push_back({memoryOf(r, oddFrame), r, true});
             }
         }
         return accesses;
@@ -279,11 +335,11 @@ std::size_t planBytes(const Plan& plan, const Graph& graph, glm::uvec2 frame) {
     std::size_t bytes = 0;
     std::vector<std::size_t> groups(std::size_t(plan.groups), 0);
     for (const PlanResource& r : plan.resources) {
-        const std::size_t own = bytesOf(graph, r.node, r.port, frame);
+        const std::size_t own = lodestir::bytesOf(graph, r.node, r.port, frame);
         if (r.group >= 0) {
             groups[std::size_t(r.group)] = std::max(groups[std::size_t(r.group)], own);
         } else {
-            bytes += own * (r.history ? 2 : 1);
+            bytes += own * std::size_t(r.copies);
         }
     }
     return std::accumulate(groups.begin(), groups.end(), bytes);

@@ -31,24 +31,27 @@ std::string sourceOf(const GraphNode& node) {
 std::string shapeText(const Graph& graph, const PlanResource& r) {
     const Port& port = graph.port({r.node, r.port});
     const glm::uvec2 frame = graph.description.size;
+    if (port.count.kind == Count::Kind::reserved) return fmt::format("? x {} B", port.type.size);
     if (port.type.kind != PortType::Kind::image) return fmt::format("{} x {} B", countOf(graph, r.node, r.port, frame), port.type.size);
     const glm::uvec2 size = sizeOf(graph, r.node, r.port, frame);
     return fmt::format("{} x {} {}", size.x, size.y, factsOf(port.format).name);
 }
 
 std::string lifeText(const Graph& graph, const PlanResource& r) {
-    const bool isState = graph.port({r.node, r.port}).role == Port::Role::state;
+    const Port& port = graph.port({r.node, r.port});
+    const bool isState = port.role == Port::Role::state;
     std::string text =
         r.firstStep == r.lastStep ? fmt::format("step {}", r.firstStep + 1) : fmt::format("steps {}..{}", r.firstStep + 1, r.lastStep + 1);
-    if (r.history) text = "two copies (@prev)";
+    if (r.history) text = r.copies == 2 ? "two copies (@prev)" : "kept (@prev)";
     if (r.keeps && !r.history) text = isState ? "kept (state)" : "kept (onChange)";
+    if (port.count.kind == Count::Kind::reserved) text += ", sized by the pass";
     if (r.pinned) text += ", pinned";
     if (r.group >= 0) text += fmt::format(", shares memory {}", r.group + 1);
     return text;
 }
 
 std::size_t ownBytes(const Graph& graph, const PlanResource& r) {
-    return bytesOf(graph, r.node, r.port, graph.description.size) * (r.history ? 2 : 1);
+    return bytesOf(graph, r.node, r.port, graph.description.size) * std::size_t(r.copies);
 }
 
 std::string edgesText(const Graph& graph, int index) {
@@ -126,6 +129,7 @@ Json facts(const Plan& plan, const Graph& graph) {
         fact["steps"].push(r.firstStep);
         fact["steps"].push(r.lastStep);
         fact["history"] = r.history;
+        fact["copies"] = r.copies;
         fact["keeps"] = r.keeps;
         if (r.group >= 0) fact["group"] = r.group;
         out["memory"].push(std::move(fact));

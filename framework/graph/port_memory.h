@@ -10,7 +10,7 @@
 
 namespace lodestir {
 
-/// Memory of one resource. Without history both copies are the same buffer.
+/// Memory of one resource. Where there is one copy, both are the same buffer.
 struct PortMemory {
     std::array<gpu::Buffer*, 2> copies{};
     std::array<std::shared_ptr<const void>, 2> keep;  ///< handles: owns what the struct points to
@@ -29,6 +29,8 @@ public:
     PortMemories(const gpu::Device& device, const Graph& graph, const Plan& plan, glm::uvec2 frame);
     PortMemory& at(std::size_t resource) { return memories_[resource]; }
     const PortMemory& at(std::size_t resource) const { return memories_[resource]; }
+    /// Scratch gets memory for so many bytes; returns what it had, which must live as long as commands that name it (nothing, if that will do).
+    std::unique_ptr<gpu::Buffer> reserve(const gpu::Device& device, std::size_t resource, std::size_t bytes, const std::string& name);
     /// Zero everywhere (`all`), or only in what lives from frame to frame.
     void clear(gpu::Commands& commands, const Plan& plan, bool all);
     std::size_t bytes() const { return bytes_; }

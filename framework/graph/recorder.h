@@ -21,7 +21,7 @@ public:
     glm::uvec2 size() const override { return s_.size_; }
     bool historyValid() const override { return s_.historyValid_; }
     glm::uvec2 sizeOf(const Port& port) const override { return lodestir::sizeOf(s_.graph_, node_, numberOf(port), s_.size_); }
-    std::uint32_t countOf(const Port& port) const override { return lodestir::countOf(s_.graph_, node_, numberOf(port), s_.size_); }
+    std::uint32_t countOf(const Port& port) const override { return s_.countOf(std::size_t(node_), std::size_t(numberOf(port))); }
     bool isBound(const Port& port) const override {
         return !port.isInput() || s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))].has_value();
     }
@@ -42,12 +42,25 @@ public:
             done += rows;
             if (rows == 0 || s_.slices_.full() || (s_.slices_.cuts() && work_.pieces.size() == maxPieces)) s_.handOver(work_);
         }
+        if (s_.probe_ && s_.probe_->asks()) {
+            s_.handOver(work_);
+            s_.probe_->told(node_, shader, arguments, kernel.probes);
+        }
     }
     void fill(const Port& port, std::uint32_t word) override {
         separate();
         gpu::Buffer& buffer = made(port).now();
         s_.commands_.fill(buffer, 0, buffer.size(), word);
     }
+    void reserve(const Port& port, std::uint32_t elements) override {
+        if (port.count.kind != Count::Kind::reserved) throw Error("port \"" + std::string(port.name) + "\" has a size of its own");
+        if (recorded_) throw Error("port \"" + std::string(port.name) + "\" is reserved after something was recorded");
+        auto before = s_.memories_->reserve(s_.device_, std::size_t(s_.plan_.resourceOf(node_, numberOf(port))), elements * port.type.size,
+                                            s_.graph_.nameOf({node_, numberOf(port), false}));
+        if (before) work_.staging.push_back(std::move(*before));
+        s_.fillBlock(std::size_t(node_));
+    }
+    using Frame::reserve;
     void upload(const Port& port, std::span<const std::byte> bytes) override {
         separate();
         PortMemory& memory = made(port);
@@ -62,7 +75,7 @@ public:
         const auto buffer = std::make_shared<const gpu::Buffer>(gpu::makeBuffer(s_.device_, bytes, name));
         return {buffer->address(), buffer};
     }
-    std::span<const std::byte> valueOf(const Port& port) const override {
+    std::span<const std::byte> bytesOf(const Port& port) const override {
         const auto& source = s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))];
         const int resource = source ? s_.plan_.resourceOf(source->node, source->port) : -1;
         if (resource < 0) throw Error("port \"" + std::string(port.name) + "\" is not wired");

@@ -19,7 +19,7 @@ void Runner::State::allocate() {
     for (const GraphNode& node : graph_.nodes) {
         NodeState state;
         state.layout = blockLayout(*node.pass);
-        state.block = gpu::Buffer(device_, state.layout.bytes, gpu::Memory::upload, node.name + ": block");
+        state.block = gpu::Buffer(device_, state.layout.bytes + (probe_ ? sizeof(VkDeviceAddress) : 0), gpu::Memory::upload, node.name + ": block");
         nodes_.push_back(std::move(state));
     }
     historyValid_ = false;
@@ -46,6 +46,12 @@ bool Runner::State::takeParameters(std::size_t node) {
     return changed;
 }
 
+std::uint32_t Runner::State::countOf(std::size_t node, std::size_t port) const {
+    const Port& made = *graph_.nodes[node].pass->ports[port];
+    if (made.isInput() || made.count.kind != Count::Kind::reserved) return lodestir::countOf(graph_, int(node), int(port), size_);
+    return std::uint32_t(memories_->at(std::size_t(plan_.resourceOf(int(node), int(port)))).bytes / made.type.size);
+}
+
 void Runner::State::fillBlock(std::size_t node) {
     NodeState& state = nodes_[node];
     std::vector<std::byte> block = state.parameters;
@@ -69,13 +75,17 @@ void Runner::State::fillBlock(std::size_t node) {
                 const PortMemory& memory = memories_->at(std::size_t(resource));
                 record.address = (source.prev ? memory.last() : memory.now()).address();
                 const bool image = graph_.port(source).type.kind == PortType::Kind::image;
-                record.size =
-                    image ? lodestir::sizeOf(graph_, source.node, source.port, size_) : glm::uvec2(countOf(graph_, source.node, source.port, size_), 1);
+                record.size = image ? lodestir::sizeOf(graph_, source.node, source.port, size_)
+                                    : glm::uvec2(countOf(std::size_t(source.node), std::size_t(source.port)), 1);
             }
         }
         std::memcpy(block.data() + state.layout.ports[p], &record, sizeof record);
     }
     std::memcpy(state.block.mapped(), block.data(), block.size());
+    if (probe_) {
+        const VkDeviceAddress address = probe_->address();
+        std::memcpy(state.block.mapped() + block.size(), &address, sizeof address);
+    }
 }
 
 std::vector<std::uint64_t> Runner::State::inputVersions(std::size_t node) const {
@@ -226,6 +236,11 @@ void Runner::prepare(const std::function<void(std::size_t, std::size_t)>& progre
 }
 
 FrameReport Runner::run() { return state_->run(); }
+std::vector<ProbedDispatch> Runner::probe(glm::ivec2 pixel) {
+    state_->probe_->ask(pixel);
+    state_->run();
+    return state_->probe_->take();
+}
 std::uint32_t Runner::nextFrame() const { return state_->frame_; }
 void Runner::setFrame(std::uint32_t frame) { state_->frame_ = frame; }
 void Runner::reset() { state_->historyValid_ = false; }

@@ -4,6 +4,7 @@
 #include <framework/gpu/commands.h>
 #include <framework/graph/graph.h>
 #include <framework/graph/plan.h>
+#include <framework/graph/probe.h>
 #include <framework/graph/ray_body.h>
 #include <framework/image/image.h>
 #include <framework/shaders/base/frame.h>
@@ -22,7 +23,10 @@ struct RunnerOptions {
     std::vector<Source> pinned;  ///< ports to be read after a frame, besides the shown one
     bool checkBounds = false;    ///< count accesses outside a port; Error after the frame
     bool allBarriers = false;    ///< a barrier before every step
+    bool keepAll = false;        ///< any port can be read after a frame
+    bool shareMemory = false;    ///< ports whose lifetimes don't meet share memory
     bool countSteps = false;     ///< count the nodes that traversal visits (costs time)
+    bool probe = false;          ///< compile shaders so that they can tell what happens to a pixel: Runner::probe
     double slice = 0;            ///< milliseconds of work that go to the device at a time, so that others get their turn; 0: a frame is one piece
 };
 
@@ -64,6 +68,8 @@ public:
     void prepare(const std::function<void(std::size_t done, std::size_t all)>& progress);
     /// Runs the next frame and waits for it. Parameters changed since the last frame take effect.
     FrameReport run();
+    /// The same, asking shaders what happens to a pixel: what each dispatch told, in order. Only with RunnerOptions::probe.
+    std::vector<ProbedDispatch> probe(glm::ivec2 pixel);
     std::uint32_t nextFrame() const;
     void setFrame(std::uint32_t frame);  ///< the number of the next frame; history stays
     void reset();                        ///< history and states are void at the next frame

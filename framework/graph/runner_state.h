@@ -4,6 +4,7 @@
 #include <framework/graph/header.h>
 #include <framework/graph/kernels.h>
 #include <framework/graph/port_memory.h>
+#include <framework/graph/probe_memory.h>
 #include <framework/graph/runner.h>
 #include <framework/graph/slices.h>
 #include <framework/graph/top_levels.h>
@@ -25,12 +26,13 @@ public:
           graph_(graph),
           scene_(scene),
           options_(std::move(options)),
-          plan_(makePlan(graph, options_.pinned, {.allBarriers = options_.allBarriers})),
-          kernels_(device, graph, scene, options_),
+          plan_(makePlan(graph, options_.pinned, {.keepAll = options_.keepAll, .sharing = options_.shareMemory, .allBarriers = options_.allBarriers})),
+          kernels_(device, graph, plan_, scene, options_),
           commands_(device, std::uint32_t(2 * plan_.steps.size() + 4) + (options_.slice > 0 ? 2 * maxPieces : 0)),
           slices_(options_.slice),
           size_(graph.description.size),
           counters_(device, maxDispatches * counterStride, gpu::Memory::device, "tile counters") {
+        if (options_.probe) probe_.emplace(device);
         if (options_.rays == RayBody::rayQuery) topLevels_.emplace(device);
         allocate();
     }
@@ -53,6 +55,7 @@ public:
     std::unique_ptr<PortMemories> memories_;
     std::optional<WorldBuilder> world_;
     std::optional<TopLevels> topLevels_;  ///< with ray queries only
+    std::optional<ProbeMemory> probe_;
     gpu::Buffer counters_, ledger_, faults_, facts_;  ///< facts: ledger and faults, read back
     struct NodeState {
         BlockLayout layout;
@@ -89,6 +92,7 @@ private:
     void beginStep(Work& work);
     void endStep(Work& work);
     bool takeParameters(std::size_t node);
+    std::uint32_t countOf(std::size_t node, std::size_t port) const;  ///< elements of a buffer port as they are now
     void fillBlock(std::size_t node);
     std::vector<std::uint64_t> inputVersions(std::size_t node) const;
     void checkFaults() const;

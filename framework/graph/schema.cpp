@@ -28,7 +28,7 @@ Json portFacts(const Wire& wire) {
     if (!wire.bundle && port.type.kind != PortType::Kind::image) fact["bytes"] = std::int64_t(port.type.size);
     if (!port.isInput() && port.type.kind == PortType::Kind::image) fact["format"] = std::string(factsOf(port.format).name);
     if (const std::string size = sizeText(port); !size.empty()) fact["size"] = size;
-    if (port.isInput()) fact["optional"] = port.optional;
+    if (port.isInput() || port.optional) fact["optional"] = port.optional;
     fact["doc"] = std::string(wire.doc());
     return fact;
 }
@@ -176,6 +176,7 @@ std::string sizeText(const Port& port) {
     switch (port.count.kind) {
     case Count::Kind::perPixel: return fmt::format("{} per pixel", port.count.number);
     case Count::Kind::fixed: return fmt::format("{} elements", port.count.number);
+    case Count::Kind::reserved: return "as the pass needs";
     case Count::Kind::like: break;
     }
     return "like " + std::string(port.count.like);

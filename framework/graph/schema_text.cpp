@@ -90,6 +90,11 @@ std::string remarks(const PassType& type) {
         const BundlePort* bundle = bypass.in->bundle;
         if (!bundle || bypass.in == &bundle->members.front()) out += fmt::format("Off: `{}` is `{}`. ", bypass.out->wire(), bypass.in->wire());
     }
+    for (const Pass::Bypass& over : type.pass->overwrites) {
+        const BundlePort* bundle = over.in->bundle;
+        if (bundle && over.in != &bundle->members.front()) continue;
+        out += fmt::format("Makes `{}` in the memory of `{}` where nothing else needs that. ", over.out->wire(), over.in->wire());
+    }
     for (const Wire& bundle : bundlesOf(*type.pass)) out += fmt::format("{} is {}. ", bundle.typeText(), bundle.membersText());
     if (!out.empty()) out.pop_back();
     return out;

@@ -19,6 +19,7 @@
 #include <framework/shaders/world/ray.h>
 #include <framework/shaders/world/world.h>
 
+#include <cstring>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -54,13 +55,23 @@ public:
     virtual std::uint32_t countOf(const Port& port) const = 0;  ///< elements of a buffer
     virtual bool isBound(const Port& port) const = 0;
     bool isBound(const BundlePort& port) const { return isBound(port.members.front()); }
-    virtual std::span<const std::byte> valueOf(const Port& port) const = 0;  ///< the struct that a wired handle input holds
+    virtual std::span<const std::byte> bytesOf(const Port& port) const = 0;  ///< of the struct that a wired handle input holds
+    template <class R> R valueOf(const In<R>& port) const {
+        R value;
+        std::memcpy(&value, bytesOf(port).data(), sizeof value);
+        return value;
+    }
     /// Runs a shader of this pass's folder once for each element of `extent` (pixels, or {n, 1}). A shader that includes
     /// "trace/driver.glsl" is spread as its tracing body likes best. `arguments`: up to 4 words, argument(i) in the shader.
     /// Dispatches of one pass see what earlier ones wrote.
     virtual void dispatch(std::string_view shader, glm::uvec2 extent, std::initializer_list<std::uint32_t> arguments = {}) = 0;
     /// Fills a port this pass makes with a 32-bit word.
     virtual void fill(const Port& port, std::uint32_t word) = 0;
+    /// Memory for so many elements of a scratch buffer that is declared with Count::reserved(); before anything of this execute() is recorded.
+    virtual void reserve(const Port& port, std::uint32_t elements) = 0;
+    void reserve(const BundlePort& port, std::uint32_t elements) {
+        for (const Port& member : port.members) reserve(member, elements);
+    }
     /// Fills a buffer or image this pass makes with `bytes` from the CPU (at most its size).
     virtual void upload(const Port& port, std::span<const std::byte> bytes) = 0;
     /// New memory that holds `bytes`. `name` shows in debuggers.
@@ -86,6 +97,7 @@ public:
         const Port* out;
     };
     std::vector<Bypass> bypasses;        ///< with "off": true each out is its in; a pass without any can't be off
+    std::vector<Bypass> overwrites;      ///< outs that may lie in the memory of their ins
 
     Pass();
     Pass(const Pass&) = delete;
@@ -102,6 +114,15 @@ struct LODESTIR_API PassThrough {
     PassThrough(Pass* pass, const Port& in, const Port& out) { pass->bypasses.push_back({&in, &out}); }
     template <Bundle B> PassThrough(Pass* pass, const In<B>& in, const Out<B>& out) {
         for (std::size_t i = 0; i < in.members.size(); ++i) pass->bypasses.push_back({&in.members[i], &out.members[i]});
+    }
+};
+
+/// Declares that `out` may be written over `in`, where nobody else needs `in` any more: each invocation reads of it the element that it writes, and reads
+/// it before. The graph's plan decides.
+struct LODESTIR_API InPlace {
+    InPlace(Pass* pass, const Port& in, const Port& out) { pass->overwrites.push_back({&in, &out}); }
+    template <Bundle B> InPlace(Pass* pass, const In<B>& in, const Out<B>& out) {
+        for (std::size_t i = 0; i < in.members.size(); ++i) pass->overwrites.push_back({&in.members[i], &out.members[i]});
     }
 };
 

@@ -32,13 +32,15 @@ struct Extent {
 
 /// Number of elements of a buffer.
 struct Count {
-    enum class Kind : std::uint8_t { perPixel, fixed, like } kind = Kind::perPixel;
+    enum class Kind : std::uint8_t { perPixel, fixed, like, reserved } kind = Kind::perPixel;
     std::uint32_t number = 1;        ///< slots of a pixel, or elements
     std::string_view like = {};      ///< another port of the same pass
 
     static constexpr Count perPixel(std::uint32_t slots = 1) { return {Kind::perPixel, slots, {}}; }
     static constexpr Count fixed(std::uint32_t elements) { return {Kind::fixed, elements, {}}; }
     static constexpr Count likePort(std::string_view port) { return {Kind::like, 1, port}; }
+    /// Of scratch: as many as execute() asks for (Frame::reserve), which knows parameters and what handles hold.
+    static constexpr Count reserved() { return {Kind::reserved, 1, {}}; }
 };
 
 struct Image {};                          ///< tag of an image port
@@ -74,7 +76,7 @@ struct LODESTIR_API Port {
     std::string_view name, doc;  ///< of a bundle's member: "paths.reservoirs"
     PortType type;
     Role role;
-    bool optional;   ///< an input that may stay unwired (the shader tests HAS_name)
+    bool optional;   ///< an input that may stay unwired (the shader tests HAS_name), or an output that isn't made where nobody asks for it
     Format format;   ///< of an image that this pass makes
     Extent extent;   ///< of an image that this pass makes
     Count count;     ///< of a buffer that this pass makes
@@ -106,6 +108,9 @@ template <class R> struct In : Port {
 template <class R> struct Out : Port {
     Out(Pass* pass, std::string_view n, std::string_view d) : Port(pass, n, d, PortTypeOf<R>::value, Role::out, {}) {}
     Out(Pass* pass, std::string_view n, std::string_view d, Format f, Extent e = {}) : Port(pass, n, d, PortTypeOf<R>::value, Role::out, {f, e, {}}) {}
+    /// With Need::optional no pass may read it that makes it: where no other does and nobody looks at it, it has no memory and storing does nothing.
+    Out(Pass* pass, std::string_view n, std::string_view d, Format f, Need need)
+        : Port(pass, n, d, PortTypeOf<R>::value, Role::out, {f, {}, {}}, need == Need::optional) {}
     Out(Pass* pass, std::string_view n, std::string_view d, Count c) : Port(pass, n, d, PortTypeOf<R>::value, Role::out, {.count = c}) {}
 };
 /// Kept from frame to frame: an output that starts each frame with last frame's content; zero after start, resize, cut and reset.

@@ -8,6 +8,7 @@
 // The same functions are asked on the base path and on the shifted one. A shift is invertible only if both find the same k: connectable
 // pairs must neither appear before k nor vanish at k.
 #include "base/math.glsl"
+#include "base/probe.glsl"
 #include "base/random.glsl"
 
 const uint CRITERIA_DISTANCE = 0u;
@@ -68,3 +69,26 @@ bool connectable(ConnectionCriteria c, Pair p) {
     if (p.end == PAIR_REACHED) return true;
     return (p.end != PAIR_SURFACE || p.at > 0.0) && spreadsOver(c.least, pdfFrom(p), p.cosineBefore, p.distance);
 }
+
+#ifdef PROBING
+// What the criteria say of a pair, one by one.
+void probePair(uint place, ConnectionCriteria c, Pair p) {
+    probeAppend(place, PROBE_SCOPE, 0u, uvec4(0u));
+    PROBE(connectable, connectable(c, p));
+    PROBE_CHOICE(end, p.end, "surface|emitter|environment|light|reached");
+    PROBE(roughnessBefore, p.before);
+    PROBE(roughnessAt, p.at);
+    PROBE(roughnessLeast, c.roughness);
+    PROBE(distance, p.distance);
+    PROBE_CHOICE(criteria, c.kind, "distance|footprint");
+    PROBE(least, c.least);
+    PROBE(pdfBefore, p.pdfBefore);
+    PROBE(pdfAt, p.pdfAt);
+    PROBE(cosineBefore, p.cosineBefore);
+    PROBE(cosineAt, p.cosineAt);
+    probeAppend(place, PROBE_SCOPE_END, 0u, uvec4(0u));
+}
+#define PROBE_PAIR(name, criteria, pair) probePair(PROBE_PLACE, criteria, pair)
+#else
+#define PROBE_PAIR(name, criteria, pair)
+#endif

@@ -6,6 +6,8 @@
 // c are confidences. Confidence and validity of a neighbour must not depend on samples: a failed shift sets pHatFrom to 0, it does not
 // take the neighbour's c out of S.
 
+#include "base/probe.glsl"
+
 /// Eq. 35 for the candidate's own sample x, y = T x: no reverse shift is needed. pHat = p^_i(x), jacobian = |dT/dx|; 0: the shift failed.
 float pHatFromForward(float pHat, float jacobian) { return jacobian > 0.0 ? pHat / jacobian : 0.0; }
 
@@ -39,6 +41,8 @@ PairwiseMis defensivePairwiseMis(float canonical, float neighbours) {
 
 /// m_i(y) of neighbour i with confidence c. pHat: canonical target of y.
 float neighbourMis(PairwiseMis p, float c, float pHat, float pHatFrom) {
+    PROBE(confidence, c);
+    PROBE(targetFrom, pHatFrom);
     return c > 0.0 ? c / p.total * balanceMis(p.neighbours * pHatFrom, p.canonical * pHat) : 0.0;
 }
 
@@ -46,5 +50,7 @@ float neighbourMis(PairwiseMis p, float c, float pHat, float pHatFrom) {
 /// sample x; pHatFrom = 0 (no preimage in i) gives the whole share c / total: the canonical sample covers what i can't.
 float canonicalMis(PairwiseMis p, float c, float pHat, float pHatFrom) {
     float theirs = p.neighbours * pHatFrom;
+    PROBE(confidence, c);
+    PROBE(targetFrom, pHatFrom);
     return c > 0.0 ? c / p.total * (theirs > 0.0 ? balanceMis(p.canonical * pHat, theirs) : 1.0) : 0.0;
 }

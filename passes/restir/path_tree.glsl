@@ -14,6 +14,7 @@
 //   uint drawnNumber(LightDraw d, uint candidate);  of that light: lightPoint() finds it again
 #include "base/math.glsl"
 #include "restir/path_vertex.glsl"
+#include "restir/probe_path.glsl"
 #include "restir/ris.glsl"
 #include "restir/sample_hit.h"
 #include "world/camera.glsl"
@@ -104,7 +105,9 @@ void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
 /// leaves it. `s`: x_j, where it has a surface.
 bool maybeConnected(PathTree p, uint end, float at, float pdf, Surface s, float distance) {
     if (p.k > 0u || p.vertex < 2u) return false;
-    return connectable(p.criteria, Pair(end, p.before, at, p.pdf, pdf, p.cosine, abs(dot(s.normal, s.view)), distance));
+    Pair pair = Pair(end, p.before, at, p.pdf, pdf, p.cosine, abs(dot(s.normal, s.view)), distance);
+    PROBE_PAIR(pairs, p.criteria, pair);
+    return connectable(p.criteria, pair);
 }
 
 /// Puts a path on offer: its F in primary sample space and the densities that bring it into the mixed measure. `light`: number of its light. `warp`:
@@ -117,12 +120,22 @@ void offer(inout PathTree p, Reservoir path, PathShape shape, TrianglePlace rc, 
     p.offeredRc = rc;
     p.offeredLight = light;
     p.offeredWeight = finiteWeight(luminance(F) * warp / p.survival);
+    PROBE_OPEN(offers);
+    PROBE(segments, shape.d);
+    PROBE(k, shape.k);
+    PROBE_CHOICE(technique, shape.nee, "BSDF sampling|light sampling");
+    PROBE_CHOICE(light, shape.light, "triangle|environment|punctual");
+    PROBE(F, path.F);
+    PROBE(density, density);
+    PROBE(warp, warp);
+    PROBE(survival, p.survival);
 }
 
 /// The light of the path on offer has come through panes.
 void dimOffer(inout PathTree p, vec3 share) {
     float before = target(p.offered);
     dimLight(p.offered, unpackShape(p.offered.shape), share);
+    PROBE(dimmed, share);
     p.offeredWeight *= before > 0.0 ? target(p.offered) / before : 0.0;
 }
 
@@ -150,6 +163,9 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
         pdf = p.connectedPdf;
     }
     float share = emissionShare(rules, p.vertex - 1u, pdf, pdfLight);
+    PROBE(emission, radiance);
+    PROBE(emissionPdfs, vec2(pdf, pdfLight));
+    PROBE(emissionShare, share);
     if (p.k > 0u) {
         // Directly behind x_k the share depends on where the path came from, and is left to those who know.
         bool last = p.k + 1u == p.vertex;
@@ -184,12 +200,21 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         float pdf;
         vec3 f = bsdfEval(b, wo, onGrid(l.direction), pdf);
         vec3 sent = f * l.radianceOverPdf * lightShare(rules, p.vertex, l.pdf, pdf);
+        PROBE_OPEN(lightCandidates);
+        PROBE(light, l.point.light);
+        PROBE(direction, l.direction);
+        PROBE(distance, l.distance);
+        PROBE(lightPdf, l.pdf);
+        PROBE(bsdfPdf, pdf);
+        PROBE(share, lightShare(rules, p.vertex, l.pdf, pdf));
+        PROBE(sent, sent);
         if (!risAdd(ris, luminance(sent), random1(p.seed, p.vertex, RANDOM_FREE | i << 8u))) continue;
         light = l;
         kept = i;
         chosen = sent;
         pdfChosen = pdf;
     }
+    PROBE_CLOSE(lightCandidates);
     if (chosen == vec3(0.0)) return false;
     float warp = ris.wSum / (float(candidates) * luminance(chosen));
 
@@ -229,15 +254,23 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
 
 /// The spine's next direction. False: it ends here.
 bool growSpine(inout PathTree p, World w, TreeLimits limits, Surface s, Bsdf b, vec3 wo, float distance) {
+    PROBE_CLOSE(offers);
     if (limits.roulette) {
         float q = min(luminance(p.throughput), 1.0);
+        PROBE(roulette, q);
+        PROBE(rouletteNumber, random1(p.seed, p.vertex, RANDOM_ROULETTE));
         if (random1(p.seed, p.vertex, RANDOM_ROULETTE) >= q) return false;
         p.survival *= q;
     }
     BsdfDirection d = pathDirection(b, wo, p.seed, p.vertex);
     BsdfSample next = d.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d) : lobeSample(d, bsdfValue(b, d.lobe, wo, d.wi));
+    PROBE_CHOICE(lobe, next.lobe, "diffuse|reflection|transmission|coat|through|absorbed");
+    PROBE(next, next.wi);
+    PROBE(lobePdf, next.lobePdf);
+    PROBE(pdf, next.pdf);
     if (next.pdf == 0.0 || next.lobeWeight == vec3(0.0)) return false;
     float roughness = lobeRoughness(b, next.lobe);
+    PROBE(roughness, roughness);
     if (p.k > 0u) {
         p.suffix *= next.lobeWeight;
     } else if (maybeConnected(p, PAIR_SURFACE, roughness, next.pdf, s, distance)) {
@@ -269,15 +302,21 @@ bool growSpine(inout PathTree p, World w, TreeLimits limits, Surface s, Bsdf b, 
 /// Goes on from what `ray` hit; false: the tree is finished.
 bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hit hit, uvec2 decisions) {
     if (p.toLight) {
+        PROBE_REOPEN(offers);
+        PROBE(hidden, hit.primitive != NONE);
         if (hit.primitive == NONE) {
             if (SCENE_PANES != 0) dimOffer(p, transmittance(hit));
             takeOffer(p, decisions);
         }
+        PROBE_CLOSE(offers);
         p.toLight = false;
         p.ray = p.onward;
         return !p.ends;
     }
     uint j = ++p.vertex;
+    PROBE_OPEN(vertices);
+    PROBE(vertex, j);
+    PROBE_TEXT_IF(met, "environment", hit.primitive == NONE);
     vec3 direction = p.ray.direction, radiance;
     float distance = FAR, pdfLight;
     bool escaped = hit.primitive == NONE;
@@ -289,8 +328,10 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
         if (j >= 2u) direction = arrival(w, hit, p.from, direction);
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - p.from);
+        PROBE_SURFACE(s);
         vec3 left = segmentTransmittance(w, s, distance);
         p.throughput *= left;
+        PROBE(throughput, p.throughput);
         if (p.k > 0u) p.suffix *= left;
         if (maybeConnected(p, PAIR_REACHED, 0.0, 0.0, s, distance)) {
             BsdfValue value = bsdfValue(p.bsdf, p.lobe, p.wo, direction);
@@ -310,6 +351,7 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
     if (radiance != vec3(0.0) && j >= limits.segmentsMin) {
         offerEmission(p, rules, hit, s, direction, distance, radiance, pdfLight);
         takeOffer(p, decisions);
+        PROBE_CLOSE(offers);
     }
     if (escaped || j == limits.segmentsMax) return false;
     Bsdf b = bsdfAt(w, s);

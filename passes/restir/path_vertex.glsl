@@ -68,7 +68,9 @@ float roughestLobe(Bsdf b, vec3 wo) {
 /// (Lin et al. 2026, ReSTIR PT Enhanced, section 6.2.3). `roughness` and `pdf` (of its direction): of all lobes at the vertex.
 bool lightConnectable(ShiftRules rules, ConnectionCriteria criteria, Surface s, float roughness, float pdf, LightSample l) {
     if (rules.forcedNee != 0u) return true;
-    return connectable(criteria, Pair(PAIR_LIGHT, roughness, 0.0, pdf, 0.0, abs(dot(s.normal, l.direction)), l.cosine, l.distance));
+    Pair pair = Pair(PAIR_LIGHT, roughness, 0.0, pdf, 0.0, abs(dot(s.normal, l.direction)), l.cosine, l.distance);
+    PROBE_PAIR(pairs, criteria, pair);
+    return connectable(criteria, pair);
 }
 
 PrimaryHit primaryHit(Hit hit, vec2 film, vec2 lens) { return PrimaryHit(hit.instance, hit.primitive, hit.barycentrics, film, lens); }

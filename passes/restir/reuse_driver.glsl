@@ -26,7 +26,11 @@ void pathStart(inout Path p, World now, ivec2 pixel) { reuseStart(p.reuse, now, 
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     ShiftTask task = shiftOfNothing();
-    if (isShift(item)) task = reuseTask(p.reuse, w, pixel, item / WAYS, item % WAYS);
+    if (isShift(item)) {
+        PROBE_OPEN(shifts);
+        PROBE(partner, item / WAYS);
+        task = reuseTask(p.reuse, w, pixel, item / WAYS, item % WAYS);
+    }
     return shiftStart(p.shift, w, rules(), task, frameSize());
 }
 
@@ -34,7 +38,9 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p
 bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
-    if (isShift(item)) reuseResult(p.reuse, pixel, item / WAYS, item % WAYS, p.shift);
+    if (!isShift(item)) return;
+    PROBE_SHIFTED(p.shift.path.F, p.shift.jacobian);
+    reuseResult(p.reuse, pixel, item / WAYS, item % WAYS, p.shift);
 }
 
 void pathEnd(Path p, ivec2 pixel) { reuseEnd(p.reuse, pixel); }

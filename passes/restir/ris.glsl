@@ -5,6 +5,8 @@
 // and their cap section 6.2. Keeping one of a stream: Chao 1982, A General Purpose Unequal Probability Sampling Plan.
 // The caller holds the samples themselves: risAdd only says whether to keep the newcomer.
 
+#include "base/probe.glsl"
+
 struct Ris {
     float wSum;  // sum of the weights offered so far
     float M;     // confidence: the sum over the inputs
@@ -17,13 +19,23 @@ float finiteWeight(float w) { return floatBitsToUint(w) < 0x7f800000u ? w : 0.0;
 
 /// Eq. 19: w = m p^(y) W |dT/dx|. 0 for a failed shift (jacobian = 0), which is the candidate's whole contribution: its confidence still
 /// counts, because whether a shift fails depends on the sample.
-float resamplingWeight(float m, float pHat, float W, float jacobian) { return finiteWeight(m * pHat * W * jacobian); }
+float resamplingWeight(float m, float pHat, float W, float jacobian) {
+    PROBE(m, m);
+    PROBE(target, pHat);
+    PROBE(W, W);
+    PROBE(jacobian, jacobian);
+    return finiteWeight(m * pHat * W * jacobian);
+}
 
 /// Offers a candidate of weight w; true: keep it instead of what was kept before. u in [0, 1) is a fresh number of the resampling stream,
 /// never one that made a path. A weight of zero is never kept, and the first that is not zero always is.
 bool risAdd(inout Ris r, float w, float u) {
     w = finiteWeight(w);
     r.wSum += w;
+    PROBE(w, w);
+    PROBE(wSum, r.wSum);
+    PROBE(u, u);
+    PROBE(taken, u * r.wSum < w);
     return u * r.wSum < w;
 }
 

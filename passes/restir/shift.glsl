@@ -13,6 +13,7 @@
 // pair at k must be, and the light must be met as it was.
 #include "base/math.glsl"
 #include "restir/path_vertex.glsl"
+#include "restir/probe_path.glsl"
 #include "restir/sample_hit.h"
 #include "world/camera.glsl"
 
@@ -96,6 +97,10 @@ bool shiftStart(inout Shift t, World w, ShiftRules rules, ShiftTask task, uvec2 
         t.ray.tMax = reach - min(gap, 0.5 * reach);
     }
     t.onward = t.ray;
+    PROBE_RESERVOIR(base, task.path);
+    PROBE_TEXT_IF(failed, "there is no path to shift", t.jacobian == 0.0);
+    PROBE(walksSuffix, t.refresh);
+    PROBE(jacobianBefore, t.jacobian);
     return t.jacobian > 0.0;
 }
 
@@ -124,7 +129,9 @@ void shiftFail(inout Shift t) {
 bool agreesOnConnection(Shift t, bool target, uint end, float at, float pdf, Surface s, float distance) {
     bool suffix = t.shape.k > 0u && t.vertex > t.shape.k;
     if (t.vertex < 2u || suffix) return true;
-    return connectable(t.criteria, Pair(end, t.before, at, t.pdf, pdf, t.cosine, abs(dot(s.normal, s.view)), distance)) == target;
+    Pair pair = Pair(end, t.before, at, t.pdf, pdf, t.cosine, abs(dot(s.normal, s.view)), distance);
+    PROBE_PAIR(pairs, t.criteria, pair);
+    return connectable(t.criteria, pair) == target;
 }
 
 /// F of a replayed path, or radiance and F of a suffix walked again, that ends with `radiance`. The share of a light that the BSDF of x_k found
@@ -145,6 +152,8 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
     bool environment = hit.primitive == NONE;
     bool alike = !t.shape.nee && t.vertex == t.shape.d && t.shape.light == (environment ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_TRIANGLE);
     if (!alike || !agreesOnConnection(t, target, environment ? PAIR_ENVIRONMENT : PAIR_EMITTER, 0.0, 0.0, s, distance)) {
+        PROBE_TEXT_IF(failed, "it ends here, on a surface or under the sky, where the base path goes on or ends in another kind of light", !alike);
+        PROBE_TEXT_IF(failed, "the pair with its light is connectable and not x_k, or x_k and not connectable", alike);
         shiftFail(t);
         return;
     }
@@ -162,6 +171,7 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
     if (target && !environment) {
         float G = connectionTerm(t.from, s);
         t.jacobian *= reconnectionJacobian(G, t.path.G);
+        PROBE_FACTOR(reconnection, G, t.path.G);
         t.path.G = G;
     }
 }
@@ -234,8 +244,12 @@ void leave(inout Shift t, Surface s, vec3 way, float roughness, float pdf) {
 void replay(inout Shift t, World w, Surface s, Bsdf b, Departure d, BsdfValue value, float roughness) {
     BsdfSample drawn = d.next.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d.next) : lobeSample(d.next, value);
     t.throughput *= drawn.lobeWeight;
+    PROBE(lobePdf, drawn.lobePdf);
+    PROBE(pdf, drawn.pdf);
+    PROBE(throughput, t.throughput);
     leave(t, s, d.way, roughness, drawn.delta ? 0.0 : drawn.pdf);
     t.ray = spawnRay(w, s, d.way);
+    PROBE_TEXT_IF(failed, "its numbers lead nowhere from here", t.throughput == vec3(0.0));
     if (t.throughput == vec3(0.0)) shiftFail(t);
 }
 
@@ -244,6 +258,10 @@ bool connect(inout Shift t, World w, Surface s, Departure d, BsdfValue value, fl
     bool sky = reconnectionKind(t.shape) == RC_ENVIRONMENT;
     SurfacePoint goal = connectedPoint(t);
     t.throughput *= value.one;
+    PROBE(lobePdf, value.onePdf);
+    PROBE(pdf, value.pdf);
+    PROBE(throughput, t.throughput);
+    PROBE_TEXT_IF(failed, "the lobe sends nothing to x_k", t.throughput == vec3(0.0));
     leave(t, s, d.way, roughness, value.pdf);
     t.vertex = t.shape.k;
     t.state = SHIFT_CONNECT;
@@ -258,12 +276,20 @@ bool connect(inout Shift t, World w, Surface s, Departure d, BsdfValue value, fl
 void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, BsdfValue value, float roughness, float share) {
     bool stored = reconnectionKind(t.shape) == RC_LIGHT;
     if (t.shape.k == 0u || stored) {
-        if (lightConnectable(rules, t.criteria, s, roughness, value.pdf, d.light) != stored) shiftFail(t);
+        bool mayConnect = lightConnectable(rules, t.criteria, s, roughness, value.pdf, d.light);
+        PROBE_TEXT_IF(failed, "the light is connectable and not x_k, or x_k and not connectable", mayConnect != stored);
+        if (mayConnect != stored) shiftFail(t);
     }
+    PROBE(share, share);
+    PROBE(lightPdf, d.light.pdf);
+    PROBE(bsdfPdf, value.pdf);
+    PROBE(toLight, d.way);
     reachLight(t, value.all * d.light.radianceOverPdf * (stored ? vertexDensity(w, d.light) : 1.0), share, 0.0);
+    PROBE_TEXT_IF(black, "the light sends nothing here, or nothing of it is scattered", t.path.F == vec3(0.0));
     if (stored) {
         float G = connectionTerm(w, d.light);
         t.jacobian *= reconnectionJacobian(G, t.path.G);
+        PROBE_FACTOR(reconnection, G, t.path.G);
         t.path.G = G;
     }
     t.ray = shadowRay(w, s, d.light);
@@ -273,11 +299,16 @@ void askLight(inout Shift t, World w, ShiftRules rules, Surface s, Departure d, 
 /// x_k between y_{k-1} and what follows it, which is kept or, `refresh`, walked again. `sampled`: light sampling at x_k found the light.
 void passConnection(inout Shift t, World w, Surface s, Departure d, BsdfValue value, bool sampled, float pdfLight, float share) {
     float G = connectionTerm(t.from, s);
+    PROBE(share, share);
+    PROBE(lobePdf, value.onePdf);
+    PROBE(pdf, value.pdf);
     t.jacobian *= reconnectionJacobian(G, t.path.G);
+    PROBE_FACTOR(reconnection, G, t.path.G);
     t.path.G = G;
     if (d.towards == TOWARDS_LIGHT) {
         // The light sample's numbers stay, its direction doesn't: d omega_y / d omega_x is the quotient of the densities.
         float density = pdfLight > 0.0 ? pdfLight : 1.0;
+        PROBE_FACTOR(lightSample, t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);
         t.jacobian *= jacobianRatio(t.path.lightPdf > 0.0 ? t.path.lightPdf : 1.0, density);
         t.path.lightPdf = pdfLight;
         t.path.radiance = d.light.radianceOverPdf * density;
@@ -285,6 +316,7 @@ void passConnection(inout Shift t, World w, Surface s, Departure d, BsdfValue va
     }
     t.prefix = t.throughput * (sampled ? value.all : value.one);
     t.path.F = t.prefix * t.path.radiance * share;
+    PROBE_TEXT_IF(failed, "x_k scatters nothing of what follows it back to here", t.prefix == vec3(0.0));
     if (t.prefix == vec3(0.0)) shiftFail(t);
     if (!t.refresh) return;
     t.resumes = true;
@@ -297,12 +329,16 @@ void passConnection(inout Shift t, World w, Surface s, Departure d, BsdfValue va
 /// have become x_k, which wants to be looked at before any ray is traced.
 bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout vec3 direction, inout bool target) {
     uint j = t.vertex, kind = reconnectionKind(t.shape);
+    PROBE_OPEN(vertices);
+    PROBE(vertex, j);
+    PROBE_TEXT_IF(met, "environment", hit.primitive == NONE);
     Surface s;
     float distance = FAR;
     if (hit.primitive != NONE) {
         if (j >= 2u) direction = arrival(w, hit, t.from, direction);
         s = surfaceAt(w, hit, direction);
         distance = length(s.position - t.from);
+        PROBE_SURFACE(s);
         t.throughput *= segmentTransmittance(w, s, distance);
         if (j == 1u && !t.carried) t.hit.uv = s.uv;
         if (j == 1u) t.criteria = criteriaOf(rules, t.path.seed, distance, abs(dot(s.normal, s.view)));
@@ -315,12 +351,18 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     vec3 wo = -direction;
     Departure d;
     if (!depart(t, w, s, b, wo, target, d)) {
+        PROBE_TEXT(failed, "x_k is of a level that is not shown here");
         shiftFail(t);
         return false;
     }
     float roughness = d.lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, d.lobe);
     BsdfValue value = bsdfValue(b, d.lobe, wo, d.way);
+    PROBE_CHOICE(towards, d.towards, "next vertex, by the path's numbers|light sample|x_k|what follows x_k");
+    PROBE_CHOICE(lobe, min(d.lobe, LOBE_COUNT + 1u), "diffuse|reflection|transmission|coat|through|absorbed|all");
+    PROBE(roughness, roughness);
     if (!agreesOnConnection(t, target, PAIR_SURFACE, roughness, value.pdf, s, distance)) {
+        PROBE_TEXT_IF(failed, "x_k is not connectable to the vertex before it", target);
+        PROBE_TEXT_IF(failed, "a pair of vertices before x_k is connectable: shifted back, the path would be connected here", !target);
         shiftFail(t);
         return false;
     }
@@ -353,6 +395,8 @@ bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
         bool target = false;
         while (shiftVertex(t, w, rules, hit, direction, target)) {}
     } else if (hit.primitive != NONE) {
+        PROBE_CHOICE(hidden, t.state, "next vertex|x_k|light|first vertex, from the lens");
+        PROBE_TEXT(failed, "something is in the way");
         shiftFail(t);
     } else {
         dimLight(t.path, t.shape, transmittance(hit));
@@ -360,6 +404,7 @@ bool shiftStep(inout Shift t, World w, ShiftRules rules, Hit hit) {
         if (t.resumes) t.ray = t.onward;
         t.resumes = false;
     }
+    PROBE_TEXT_IF(black, "F is 0 here, and nothing that follows changes it", t.path.F == vec3(0.0) && t.jacobian > 0.0);
     // Nothing is gained by tracing a path that is black already; with a suffix to come, F is not known yet.
     if (t.path.F == vec3(0.0) && !(t.refresh && reconnectionKind(t.shape) == RC_SURFACE && t.state != SHIFT_DONE)) t.jacobian = 0.0;
     return t.jacobian > 0.0 && t.state != SHIFT_DONE;

@@ -46,6 +46,13 @@ struct Blur final : Pass {
     Const<int>  taps{this, "taps", 9, {1, 33}, "samples per axis"};
     PassThrough bypass{this, color, glow};
 };
+/// Makes its result in the place of what it takes, and a second one on request.
+struct Grade final : Pass {
+    In<Image>  color{this, "color", "what is graded"};
+    Out<Image> graded{this, "graded", "the same, graded", Format::rgba16f};
+    Out<Image> change{this, "change", "by how much", Format::rg16f, Need::optional};
+    InPlace    over{this, color, graded};
+};
 struct Half final : Pass {
     In<Image>  color{this, "color", "full size"};
     Out<Image> small{this, "small", "half size", Format::rgba16f, {.scale = 0.5f}};
@@ -165,6 +172,7 @@ inline void addTo(PluginLibraries& libraries) {
     libraries.addBuiltIn("lod_select", plugin<LodSelect>("LodSelect"));
     libraries.addBuiltIn("render", plugin<Render>("Render"));
     libraries.addBuiltIn("blur", plugin<Blur>("Blur"));
+    libraries.addBuiltIn("grade", plugin<Grade>("Grade"));
     libraries.addBuiltIn("half", plugin<Half>("Half"));
     libraries.addBuiltIn("temporal", plugin<Temporal>("Temporal"));
     libraries.addBuiltIn("accumulate", plugin<Accumulate>("Accumulate"));

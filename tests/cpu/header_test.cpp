@@ -245,10 +245,11 @@ TEST(Header, TakesFormatsFromTheProducers) {
     fake::Workshop workshop;
     const Graph g = workshop.build(
         R"("r": {"type": "render"}, "q": {"type": "rate", "in": {"sum": "r.color"}}, "m": {"type": "mix", "in": {"a": "q", "b": "r.color"}})", "m");
-    const std::vector<PortBinding> bound = bindingsOf(g, g.find("m"));
+    const Plan plan = makePlan(g);
+    const std::vector<PortBinding> bound = bindingsOf(g, plan, g.find("m"));
     EXPECT_EQ(bound[0].format, Format::r16f);
     EXPECT_EQ(bound[1].format, Format::rgba16f);
-    EXPECT_NE(passHeader(g, g.find("m")).find("float a(ivec2 p)"), std::string::npos);
+    EXPECT_NE(passHeader(g, plan, g.find("m")).find("float a(ivec2 p)"), std::string::npos);
 }
 
 TEST(Header, CountsWorkgroups) {

@@ -3,6 +3,7 @@
 #include "fake_passes.h"
 
 #include <framework/graph/hazards.h>
+#include <framework/graph/header.h>
 #include <framework/graph/plan.h>
 
 #include <gtest/gtest.h>
@@ -69,6 +70,14 @@ const std::vector<Case> cases{
                     "t": {"type": "tone_map", "in": {"color": "d"}})",
      "t"},
     {"alone", R"("k": {"type": "bake"})", "k"},
+    {"in place", R"("r": {"type": "render"}, "g": {"type": "grade", "in": {"color": "r.color"}}, "h": {"type": "grade", "in": {"color": "g.graded"}})",
+     "h.graded"},
+    {"in place, read twice",
+     R"("r": {"type": "render"}, "g": {"type": "grade", "in": {"color": "r.color"}}, "m": {"type": "mix", "in": {"a": "g.graded", "b": "r.color"}})", "m"},
+    {"in place of what @prev reads",
+     R"("r": {"type": "render"}, "x": {"type": "temporal", "in": {"color": "r.color", "past": "b@prev"}}, "b": {"type": "blur", "in": {"color": "x"}},
+        "g": {"type": "grade", "in": {"color": "b"}}, "h": {"type": "grade", "in": {"color": "g.graded"}})",
+     "h.graded"},
 };
 
 TEST(Plan, RunsInFileOrderUnlessNeedsSayOtherwise) {
@@ -111,7 +120,10 @@ TEST(Plan, KnowsHowLongMemoryLives) {
     EXPECT_TRUE(resourceOf(plan, g, "b.glow").history);
     EXPECT_TRUE(resourceOf(plan, g, "b.glow").keeps);
     const std::size_t pixels = 100 * 60;
-    EXPECT_EQ(planBytes(plan, g, {100, 60}), sizeof(World) + pixels * (8 + 2 * 16 + 8 + 2 * 8 + 4));
+    EXPECT_EQ(resourceOf(plan, g, "b.glow").copies, 1) << "x reads b@prev before b runs";
+    EXPECT_EQ(planBytes(plan, g, {100, 60}), sizeof(World) + pixels * (8 + 2 * 16 + 8 + 8 + 4));
+    const Graph self = workshop.build(cases[3].passes, cases[3].show);
+    EXPECT_EQ(resourceOf(makePlan(self), self, "x.result").copies, 2) << "x reads other pixels of x@prev while it writes";
     const Graph state = workshop.build(cases[5].passes, cases[5].show);
     EXPECT_TRUE(resourceOf(makePlan(state), state, "a.sum").keeps);
     EXPECT_FALSE(resourceOf(makePlan(state), state, "a.sum").history);
@@ -134,7 +146,8 @@ TEST(Plan, HasNoHazards) {
     for (const Case& c : cases) {
         const Graph g = workshop.build(c.passes, c.show);
         EXPECT_EQ(told(findHazards(makePlan(g), g)), "") << c.name;
-        EXPECT_EQ(told(findHazards(makePlan(g, {}, {.aliasing = true}), g)), "") << c.name << " with aliasing";
+        EXPECT_EQ(told(findHazards(makePlan(g, {}, {.sharing = true}), g)), "") << c.name << " with sharing";
+        EXPECT_EQ(told(findHazards(makePlan(g, {}, {.keepAll = true}), g)), "") << c.name << " with all kept";
         EXPECT_EQ(told(findHazards(makePlan(g, {}, {.allBarriers = true}), g)), "") << c.name << " with all barriers";
     }
 }
@@ -143,9 +156,9 @@ TEST(Plan, NeedsEachOfItsBarriers) {
     fake::Workshop workshop;
     int dropped = 0;
     for (const Case& c : cases) {
-        for (const bool aliasing : {false, true}) {
+        for (const bool sharing : {false, true}) {
             const Graph g = workshop.build(c.passes, c.show);
-            const Plan plan = makePlan(g, {}, {.aliasing = aliasing});
+            const Plan plan = makePlan(g, {}, {.sharing = sharing});
             for (int s = 0; s < int(plan.steps.size()); ++s) {
                 if (plan.steps[std::size_t(s)].barrier.empty()) continue;
                 const std::vector<Hazard> hazards = findHazards(plan, g, std::vector<int>{s});
@@ -170,12 +183,12 @@ TEST(Hazards, FindPlantedFaults) {
 
     Graph g = workshop.build(cases[2].passes, cases[2].show);
     Plan noCopy = makePlan(g);
-    noCopy.resources[std::size_t(noCopy.resourceOf(g.find("r"), 1))].history = true;  // a copy too many is only waste
+    noCopy.resources[std::size_t(noCopy.resourceOf(g.find("r"), 1))].copies = 2;  // a copy too many is only waste
     EXPECT_EQ(told(findHazards(noCopy, g)), "");
 
     g = workshop.build(cases[4].passes, cases[4].show);  // x reads r.color and r.color@prev
     noCopy = makePlan(g);
-    noCopy.resources[std::size_t(noCopy.resourceOf(g.find("r"), 1))].history = false;
+    noCopy.resources[std::size_t(noCopy.resourceOf(g.find("r"), 1))].copies = 1;
     EXPECT_TRUE(has(findHazards(noCopy, g), Hazard::Kind::wrongContent));
 
     g = workshop.build(cases[0].passes, cases[0].show);
@@ -211,11 +224,56 @@ TEST(Plan, SharesMemoryOnlyWhenAsked) {
                                       "c": {"type": "blur", "in": {"color": "b"}}, "d": {"type": "blur", "in": {"color": "c"}})",
         "d");
     EXPECT_EQ(makePlan(g).groups, 0);
-    const Plan shared = makePlan(g, {}, {.aliasing = true});
+    const Plan shared = makePlan(g, {}, {.sharing = true});
     EXPECT_GE(shared.groups, 1);
     EXPECT_LT(planBytes(shared, g, {100, 60}), planBytes(makePlan(g), g, {100, 60}));
-    EXPECT_EQ(resourceOf(shared, g, "d.glow").group, -1) << "what is shown is pinned";
     EXPECT_EQ(told(findHazards(shared, g)), "");
+    Plan wrong = makePlan(g, {findSource(g, "a.glow")}, {.sharing = true});
+    EXPECT_EQ(told(findHazards(wrong, g)), "");
+    wrong.resources[std::size_t(wrong.resourceOf(g.find("a"), 2))].group = wrong.resources[std::size_t(wrong.resourceOf(g.find("d"), 2))].group = 0;
+    EXPECT_NE(told(findHazards(wrong, g)), "") << "a.glow is asked for after the frame";
+}
+
+TEST(Plan, WritesInPlaceWhatNobodyElseNeeds) {
+    fake::Workshop workshop;
+    const auto named = [&](const std::string& name) { return *std::ranges::find(cases, name, [](const Case& c) { return std::string(c.name); }); };
+    const std::size_t pixels = 100 * 60, values = 2 * 16;
+    Graph g = workshop.build(named("in place").passes, named("in place").show);
+    const Plan plan = makePlan(g);
+    EXPECT_EQ(resourceOf(plan, g, "r.color").group, 0);
+    EXPECT_EQ(resourceOf(plan, g, "g.graded").group, 0);
+    EXPECT_EQ(resourceOf(plan, g, "h.graded").group, 0);
+    EXPECT_EQ(planBytes(plan, g, {100, 60}), sizeof(World) + pixels * (8 + values)) << "r.values and one image";
+    EXPECT_EQ(makePlan(g, {}, {.keepAll = true}).groups, 0);
+    const Plan looked = makePlan(g, {findSource(g, "g.graded")});
+    EXPECT_NE(resourceOf(looked, g, "h.graded").group, resourceOf(looked, g, "g.graded").group) << "what is looked at after the frame stays";
+
+    g = workshop.build(named("in place, read twice").passes, named("in place, read twice").show);
+    EXPECT_EQ(makePlan(g).groups, 0) << "m reads r.color after g has run";
+    Plan wrong = makePlan(g);
+    wrong.resources[std::size_t(wrong.resourceOf(g.find("r"), 1))].group = wrong.resources[std::size_t(wrong.resourceOf(g.find("g"), 1))].group = 0;
+    wrong.groups = 1;
+    EXPECT_NE(told(findHazards(wrong, g)), "");
+
+    g = workshop.build(named("in place of what @prev reads").passes, named("in place of what @prev reads").show);
+    EXPECT_EQ(resourceOf(makePlan(g), g, "b.glow").group, -1) << "next frame needs it";
+    EXPECT_EQ(resourceOf(makePlan(g), g, "g.graded").group, resourceOf(makePlan(g), g, "h.graded").group);
+}
+
+TEST(Plan, MakesOptionalOutputsForReadersAlone) {
+    fake::Workshop workshop;
+    const char* passes = R"("r": {"type": "render"}, "g": {"type": "grade", "in": {"color": "r.color"}},
+                            "t": {"type": "tone_map", "in": {"color": "g.change"}})";
+    const Graph g = workshop.build(passes, "g.graded");
+    const auto isMade = [&](const Plan& plan) { return plan.resourceOf(g.find("g"), 2) >= 0; };
+    const auto stores = [&](const Plan& plan) {
+        return passHeader(g, plan, g.find("g")).find("void storeChange(ivec2 p, vec2 value) {}") == std::string::npos;
+    };
+    for (const auto& [plan, made] : {std::pair(makePlan(g), false), std::pair(makePlan(g, {findSource(g, "g.change")}), true),
+                                     std::pair(makePlan(g, {findSource(g, "t")}), true), std::pair(makePlan(g, {}, {.keepAll = true}), true)}) {
+        EXPECT_EQ(isMade(plan), made);
+        EXPECT_EQ(stores(plan), made);
+    }
 }
 
 TEST(Plan, TellsItselfInWords) {
@@ -224,7 +282,7 @@ TEST(Plan, TellsItselfInWords) {
     const std::string words = text(makePlan(g), g);
     EXPECT_NE(words.find("5 steps, "), std::string::npos) << words;
     EXPECT_NE(words.find("barrier: reads r.color, written by step 2 (r)"), std::string::npos) << words;
-    EXPECT_NE(words.find("two copies (@prev)"), std::string::npos) << words;
+    EXPECT_NE(words.find("kept (@prev)"), std::string::npos) << words;
     EXPECT_NE(words.find("past = b.glow@prev"), std::string::npos) << words;
     const Json fact = facts(makePlan(g), g);
     EXPECT_EQ(fact.find("steps")->items().size(), 5u);

@@ -52,5 +52,31 @@ TEST_F(SameBits, WithABarrierBeforeEveryPass) {
         << "a barrier is missing";
 }
 
+// A port made in the memory of another, or not at all, must not show in what is made of it.
+TEST_F(SameBits, WhateverSharesMemory) {
+    for (const std::string graph : {"restir_pt_enhanced.json", "restir_lod.json"}) {
+        const auto last = [&](const std::string& out, const Arguments& more) {
+            Arguments arguments{"--scene", (sourceFolder / "scenes/ensemble_moving.json").string(), "--size", "48x40", "--frames", "4"};
+            arguments.insert(arguments.end(), more.begin(), more.end());
+            return readText(run(out, sourceFolder / "graphs" / graph, arguments) / "display.3.exr");
+        };
+        const std::string bare = last("bare", {});
+        EXPECT_TRUE(bare == last("shared", {"--share-memory"})) << graph;
+        EXPECT_TRUE(bare == last("dumped", {"--dump", "hits.motion", "--dump", "hits.depth", "--dump", "initial.paths", "--dump", "temporal.paths", "--dump",
+                                            "temporal.color", "--dump", "shade.color"}))
+            << graph;
+    }
+}
+
+// With two rounds what is reserved for one of them comes and goes.
+TEST_F(SameBits, ReservedMemoryFollowsParameters) {
+    const auto paths = [&](const std::string& out, const Arguments& more) {
+        Arguments arguments{"--size", "48x40", "--frames", "2", "--set", "spatial.rounds=2", "--dump", "spatial.paths"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return readText(run(out, sourceFolder / "graphs/restir_pt_enhanced.json", arguments) / "spatial.paths.reservoirs.1.npy");
+    };
+    EXPECT_TRUE(paths("plain", {}) == paths("listed", {"--set", "spatial.compaction=true", "--check-bounds"}));
+}
+
 }  // namespace
 }  // namespace lodestir::test

@@ -53,7 +53,7 @@ int check(const Options& options) {
     for (const std::string& dump : options.session.dumps) std::ranges::copy(findSources(graph, dump, Where{"--dump"}), std::back_inserter(pinned));
     if (!options.session.changes.variant) checkVariants(options, graph.description.variants, libraries, problems);
     problems.raise();
-    const Plan plan = makePlan(graph, pinned, {.allBarriers = options.session.allBarriers});
+    const Plan plan = makePlan(graph, pinned, {.sharing = options.session.shareMemory, .allBarriers = options.session.allBarriers});
     const std::string levels = levelPolicy(graph);
     if (options.json) {
         Json json = facts(plan, graph);

@@ -14,8 +14,8 @@ namespace lodestir {
 /// Adds a subcommand; when it is chosen, `run` becomes what it does, which returns the exit status and throws Error.
 using AddCommand = void(CLI::App& app, std::function<int()>& run);
 
-LODESTIR_API AddCommand addRun, addView, addCompare, addPasses, addCheck, addScene, addDevices, addLod, addStudy;
+LODESTIR_API AddCommand addRun, addView, addCompare, addPasses, addCheck, addScene, addDevices, addLod, addStudy, addProbe;
 /// In the order of the help.
-inline constexpr AddCommand* allCommands[] = {addRun, addView, addCompare, addPasses, addCheck, addScene, addDevices, addLod, addStudy};
+inline constexpr AddCommand* allCommands[] = {addRun, addView, addProbe, addCompare, addPasses, addCheck, addScene, addDevices, addLod, addStudy};
 
 }  // namespace lodestir

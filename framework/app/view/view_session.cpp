@@ -86,7 +86,8 @@ void ViewSession::build() {
             SessionParts parts{.device = device_,
                                .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr,
                                .adjust = [this](Graph& graph) { adjust(graph); },
-                               .slice = 20};
+                               .slice = 20,
+                               .keepAll = true};
             parts.compiled = [this](std::size_t done, std::size_t all) {
                 status_.busy = fmt::format("compiling shader {} of {}", std::min(done + 1, all), all);
                 tell();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where an invocation stands, what it may ask about the frame, and what it reports: rays and accesses out of bounds.
 // Included by pass.glsl, which defines passBlock() and params.
+#include "base/probe.glsl"
 
 #ifndef TRACE_DRIVER  // trace/driver.glsl owns main() and spreads the pixels itself
 layout(local_size_x = 8, local_size_y = 8) in;

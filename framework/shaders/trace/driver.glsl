@@ -50,6 +50,7 @@ void driverWalk(ivec2 pixel) {
     Path path;
     World now = world();
     uint items = pathItems(now);
+    PROBE_START(pixel);
     if (inside) pathStart(path, now, pixel);
     for (uint item = 0u; item < items; ++item) {
         World w = pathWorld(now, item);
@@ -72,6 +73,7 @@ void driverWalk(ivec2 pixel) {
             phase = !phase;
         }
         if (inside) pathItemEnd(path, w, pixel, item);
+        PROBE_ITEM_DONE();
     }
     if (inside) pathEnd(path, pixel);
 }

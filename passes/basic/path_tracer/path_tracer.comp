@@ -8,6 +8,7 @@
 #include "bsdf/material.glsl"
 #include "light/emission.glsl"
 #include "light/light.glsl"
+#include "surface/probe_surface.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
 
@@ -44,21 +45,36 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     vec2 offset = filmPlace(p.seed);
     p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), random2(p.seed, 0, RANDOM_LENS));
     p.onward = p.ray;
+    PROBE_OPEN(paths);
+    PROBE(seed, p.seed);
+    PROBE(film, offset);
     return true;
 }
 
 // What happens at a vertex of the path: emission, a light sample, the next direction.
 bool scatter(inout Path p, World w, Hit hit) {
     vec3 direction = p.ray.direction;
+    PROBE_OPEN(vertices);
+    PROBE(vertex, p.scatterings + 1);
+    PROBE_TEXT_IF(met, "environment", hit.primitive == NONE);
     if (hit.primitive == NONE) {
+        PROBE(throughput, p.throughput);
+        PROBE(emission, environmentRadiance(w, direction));
+        PROBE(emissionPdfs, vec2(p.pdf, environmentPdf(w, direction)));
+        PROBE(emissionShare, foundShare(technique(), p.pdf, environmentPdf(w, direction)));
         p.radiance += p.throughput * environmentRadiance(w, direction) * foundShare(technique(), p.pdf, environmentPdf(w, direction));
         return false;
     }
     Surface s = surfaceAt(w, hit, p.ray);
+    PROBE_SURFACE(s);
     p.throughput *= segmentTransmittance(w, s, hit.t);
+    PROBE(throughput, p.throughput);
     vec3 emitted = emittedRadiance(w, s);
     if (emitted != vec3(0)) {
         float pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, hit.t);
+        PROBE(emission, emitted);
+        PROBE(emissionPdfs, vec2(p.pdf, pdfLight));
+        PROBE(emissionShare, foundShare(technique(), p.pdf, pdfLight));
         p.radiance += p.throughput * emitted * foundShare(technique(), p.pdf, pdfLight);
     }
     if (p.scatterings == params.bounces) return false;
@@ -72,12 +88,24 @@ bool scatter(inout Path p, World w, Hit hit) {
         float pdfBsdf;
         vec3 f = bsdfEval(b, wo, l.direction, pdfBsdf);
         p.direct = p.throughput * f * l.radianceOverPdf * sampledShare(technique(), l.pdf, pdfBsdf);
+        PROBE_OBJECT_OPEN(lightSample);
+        PROBE(light, l.point.light);
+        PROBE(direction, l.direction);
+        PROBE(distance, l.distance);
+        PROBE(lightPdf, l.pdf);
+        PROBE(bsdfPdf, pdfBsdf);
+        PROBE(share, sampledShare(technique(), l.pdf, pdfBsdf));
+        PROBE(adds, p.direct);
+        PROBE_CLOSE(lightSample);
         p.toLight = p.direct != vec3(0);
         if (p.toLight) p.ray = shadowRay(w, s, l);
     }
 
     // The next direction, and whether roulette lets the path live.
     BsdfSample next = bsdfSample(b, wo, random3(p.seed, vertex, RANDOM_BSDF));
+    PROBE_CHOICE(lobe, next.lobe, "diffuse|reflection|transmission|coat|through|absorbed");
+    PROBE(next, next.wi);
+    PROBE(pdf, next.pdf);
     p.ends = next.pdf == 0 || next.weight == vec3(0);
     if (!p.ends) {
         p.throughput *= next.weight;
@@ -86,6 +114,8 @@ bool scatter(inout Path p, World w, Hit hit) {
         if (params.roulette && vertex >= params.rouletteStart) {
             float survival = clamp(max(p.throughput.r, max(p.throughput.g, p.throughput.b)), 0.05, 0.95);
             p.ends = random1(p.seed, vertex, RANDOM_ROULETTE) >= survival;
+            PROBE(roulette, survival);
+            PROBE(rouletteNumber, random1(p.seed, vertex, RANDOM_ROULETTE));
             p.throughput /= survival;
         }
     }
@@ -102,6 +132,7 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
 
 bool pathStep(inout Path p, World w, Hit hit) {
     if (!p.toLight) return scatter(p, w, hit);
+    PROBE(arrives, transmittance(hit));
     p.radiance += p.direct * transmittance(hit);
     p.toLight = false;
     p.ray = p.onward;

@@ -17,6 +17,7 @@ struct ToneMap final : Pass {
                        "neutral: Khronos PBR Neutral (keeps hues and mid-tones); aces: Narkowicz' fit of the ACES curve; reinhard: of luminance; "
                        "linear: clamp"};
     PassThrough  off{this, color, display};
+    InPlace      over{this, color, display};
 
     ToneMap() { forDisplay = true; }
     void execute(Frame& frame) override { frame.dispatch(shader, frame.sizeOf(display), {std::bit_cast<std::uint32_t>(frame.scene().exposure)}); }

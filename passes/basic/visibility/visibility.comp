@@ -24,7 +24,7 @@ void pathStart(inout Path p, World now, ivec2 pixel) {}
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
     p.place = filmPlace(seed);
-    p.film = filmOf(pixel, p.place, depthSize());
+    p.film = filmOf(pixel, p.place, frameSize());
     p.lens = params.lens ? random2(seed, 0, RANDOM_LENS) : vec2(0.5);  // the middle of the square is the middle of the disk
     p.ray = cameraRay(w, p.film, p.lens);
     return true;
@@ -54,7 +54,7 @@ vec2 motionOf(Path p, World w) {
         was = cameraProject(before, positionAt(before, pointOf(p.hit)), p.lens);
         is = cameraProject(w, positionAt(w, pointOf(p.hit)), p.lens);
     }
-    return was.z > 0 && is.z > 0 ? (was.xy - is.xy) * vec2(depthSize()) : vec2(0);
+    return was.z > 0 && is.z > 0 ? (was.xy - is.xy) * vec2(frameSize()) : vec2(0);
 #else
     return vec2(0);
 #endif

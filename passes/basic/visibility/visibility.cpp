@@ -11,10 +11,10 @@ struct Visibility final : Pass {
     In<World>               worldPrev{this, "worldPrev", "last frame's scene, for motion; unwired: motion of the camera and of the instances is zero",
                                       Need::optional};
     Out<Buffer<PrimaryHit>> hits{this, "hits", "first hit of each pixel, with its film and lens sample", Count::perPixel()};
-    Out<Image>              motion{this, "motion", "from this frame's position of the hit to last frame's, pixels, y down", Format::rg32f};
-    Out<Image>              depth{this, "depth", "distance along the view direction, scene units; 0 where nothing was hit", Format::r32f};
-    Out<Image>              normal{this, "normal", "shading normal, world space; zero where nothing was hit", Format::rgba16f};
-    Out<Image>              albedo{this, "albedo", "base colour, linear; zero where nothing was hit", Format::rgba16f};
+    Out<Image>              motion{this, "motion", "from this frame's position of the hit to last frame's, pixels, y down", Format::rg32f, Need::optional};
+    Out<Image>              depth{this, "depth", "distance along the view direction, scene units; 0 where nothing was hit", Format::r32f, Need::optional};
+    Out<Image>              normal{this, "normal", "shading normal, world space; zero where nothing was hit", Format::rgba16f, Need::optional};
+    Out<Image>              albedo{this, "albedo", "base colour, linear; zero where nothing was hit", Format::rgba16f, Need::optional};
     FilmPlace               place{this};
     Param<bool>             lens{this, "lens", true, "rays from a random point of the camera's aperture instead of its centre"};
 };

@@ -37,8 +37,7 @@ struct LodSelect final : Pass {
         const auto count = std::uint32_t(levels.size());
         levels.push_back(0);  // levelsChanged
         const Memory memory = frame.upload(levels, "levels");
-        World made;
-        std::memcpy(&made, frame.valueOf(world).data(), sizeof made);
+        World made = frame.valueOf(world);
         made.levels = memory.address;
         made.levelsChanged = made.levels + count * sizeof(std::uint32_t);
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);

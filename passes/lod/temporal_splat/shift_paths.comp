@@ -52,6 +52,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
 
 ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
     bool splats = partner == SPLATTED;
+    PROBE_CHOICE(technique, partner, "splatting|reprojection");
     if (splats && rules().pixelCamera != 0) return shiftOfNothing();
     World from, now = to;
     if (way == BACK) from = now = world();
@@ -78,6 +79,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     MappedPath mapped = mapPath(from, to, now, uv(), levelMapping(), wanted, centre, path, hit);
     // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not.
     if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;
+    PROBE_TEXT_IF(none, "a vertex has no counterpart on the level that is shown there", !mapped.isThere);
     if (!mapped.isThere) return shiftOfNothing();
     PrimaryHit first = mapped.hit.hit;
     hit.rc = mapped.hit.rc;
@@ -96,6 +98,9 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     }
     r.confidence = cappedConfidence(r.confidence, historyCap(way == FORTH ? r.landing : pixel));
     if (r.confidence == 0) return shiftOfNothing();
+    PROBE_SHIFT(way, splats || way == BACK ? pixel : r.before, r.landing);
+    PROBE(jacobianOfMap, mapped.jacobian);
+    PROBE(jacobianOnFilm, jacobian / mapped.jacobian);
     return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
 }
 
@@ -122,6 +127,8 @@ void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift resul
         arrive(r, pixel, partner, result);
         return;
     }
+    PROBE(confidence, r.confidence);
+    PROBE(targetFrom, pHatFromReverse(target(result.path), result.jacobian));
     float from = r.confidence * pHatFromReverse(target(result.path), result.jacobian);
     if (partner == SPLATTED) r.origins.scattered = from;
     else r.origins.gathered = from;

@@ -9,6 +9,7 @@
 #include "backup.glsl"
 #include "restir/mis.glsl"
 #include "restir/history.glsl"
+#include "restir/probe_path.glsl"
 #include "restir/reservoir.glsl"
 #include "restir/ris.glsl"
 #include "base/random.glsl"
@@ -34,6 +35,7 @@ void sortList(uint start, uint count) {
 void main() {
     if (skip()) return;
     ivec2 p = pixel();
+    PROBE_START(p);
     uint i = pixelIndex(p), start = starts(i), count = counts(i);
     Reservoir own = pathsReservoirs(i), kept = own;
     SampleHit keptHit = pathsSamples(i);
@@ -44,6 +46,15 @@ void main() {
     float mine = confidence(own);
     uvec2 decisions = resamplingSeed(uvec2(p), frameIndex(), runSeed(), passSalt());
 
+    PROBE_RESERVOIR(own, own);
+    PROBE(confidencePast, inherited);
+    PROBE(backup, backup);
+    PROBE(landed, count);
+    PROBE_OPEN(candidates);
+    PROBE_TEXT(path, "own");
+    PROBE(confidence, mine);
+    PROBE(fromSplatted, origins(i).scattered);
+    PROBE(fromReprojected, origins(i).gathered);
     Ris ris = risStart();
     float w = resamplingWeight(ownMis(mine * target(own), origins(i), backup), target(own), own.W, 1);
     risAdd(ris, w, 0);
@@ -53,6 +64,11 @@ void main() {
         uint source = lists(start + k);
         Landing landing = landings(source);
         Reservoir path = shiftedReservoirs(source);
+        PROBE_OPEN(candidates);
+        PROBE_TEXT(path, "splatted");
+        PROBE(from, ivec2(source % frameSize().x, source / frameSize().x));
+        PROBE(confidence, landing.confidence);
+        PROBE(targetFrom, pHatFromForward(landing.pHat, landing.jacobian));
         float m = pastMis(1 - backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
         w = resamplingWeight(m, target(path), path.W, landing.jacobian);
         radiance += candidateRadiance(path, w);
@@ -63,6 +79,11 @@ void main() {
     Landing landing = gatherings(i);
     if (backup > 0 && landing.target == i) {
         Reservoir path = gatheredReservoirs(i);
+        PROBE_OPEN(candidates);
+        PROBE_TEXT(path, "reprojected");
+        PROBE(from, before);
+        PROBE(confidence, landing.confidence);
+        PROBE(targetFrom, pHatFromForward(landing.pHat, landing.jacobian));
         float m = pastMis(backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));
         w = resamplingWeight(m, target(path), path.W, landing.jacobian);
         radiance += candidateRadiance(path, w);
@@ -71,8 +92,11 @@ void main() {
             keptHit = gatheredSamples(i);
         }
     }
+    PROBE_CLOSE(candidates);
     kept.W = contributionWeight(ris, target(kept));
     setConfidence(kept, mine + inherited * mix(origins(i).kept, 1, backup));
+    PROBE_RESERVOIR(kept, kept);
+    PROBE(color, radiance);
     storePathsReservoirs(i, kept);
     storePathsSamples(i, keptHit);
     storeColor(p, vec4(radiance, 1));

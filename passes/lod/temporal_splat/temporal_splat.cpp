@@ -25,10 +25,10 @@ struct TemporalSplat final : Pass {
     In<Paths>                paths{this, "paths", "this frame's path of each pixel"};
     In<Paths>                history{this, "history", "last frame's path of each pixel, after all reuse"};
     Out<Paths>               pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
-    Out<Image>               landed{this, "landed", "paths of last frame that landed in the pixel", Format::r32f};
+    Out<Image>               landed{this, "landed", "paths of last frame that landed in the pixel", Format::r32f, Need::optional};
     Out<Image>               color{this, "color",
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
-                                   Format::rgba32f};
+                                   Format::rgba32f, Need::optional};
     Scratch<Paths>           shifted{this, "shifted", "each path of last frame where it lands", Count::perPixel()};
     Scratch<Paths>           gathered{this, "gathered", "the path that reprojection brings", Count::perPixel()};
     Scratch<Buffer<Landing>> landings{this, "landings", "of each path of last frame", Count::perPixel()};
@@ -51,6 +51,7 @@ struct TemporalSplat final : Pass {
                                       "(which differs where a scale isn't uniform)"};
     SuffixRule               suffix{this};
     PassThrough              off{this, paths, pathsOut};
+    InPlace                  over{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
         frame.fill(counts, 0);

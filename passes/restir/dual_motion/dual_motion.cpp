@@ -18,5 +18,6 @@ struct DualMotion final : Pass {
                                  "what lay nearer to the camera than the pixel's surface by so much of its depth was in its way (Lin et al. 2026, "
                                  "section 6.4)"};
     PassThrough            off{this, motion, motionOut};
+    InPlace                over{this, motion, motionOut};
 };
 LODESTIR_PASS(DualMotion, "dual_motion.comp", "Gives pixels that were hidden last frame the motion of what hid them (dual motion vectors).")

@@ -64,6 +64,10 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         film = p.centre.film;
         lens = p.centre.lens;
     }
+    PROBE_OPEN(trees);
+    PROBE(seed, seed);
+    PROBE(film, film);
+    PROBE(lens, lens);
     treeStart(p.tree, seed, film, lens, cameraRay(w, filmOf(pixel, film, frameSize()), lens));
     return true;
 }
@@ -88,6 +92,7 @@ void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
 void pathEnd(Path p, ivec2 pixel) {
     Reservoir r = treesReservoir(p.tree, p.trees);
     setConfidence(r, float(p.trees) / float(params.candidates));
+    PROBE_RESERVOIR(kept, r);
     storePathsReservoirs(pixelIndex(pixel), r);
     if (holdsPath(r)) storePathsSamples(pixelIndex(pixel), p.tree.keptHit);
     else storePathsSamples(pixelIndex(pixel), p.tree.first);

@@ -49,11 +49,16 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         if (light.radianceOverPdf == vec3(0)) continue;
         float pdf;
         float sent = luminance(bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf);
+        PROBE_OPEN(lightCandidates);
+        PROBE(light, light.point.light);
+        PROBE(lightPdf, light.pdf);
+        PROBE(bsdfPdf, pdf);
         if (!risAdd(p.lights, sent / count, random1(p.decisions, i, RANDOM_FREE))) continue;
         p.kept = LightReservoir(light.point.light, light.point.texel, light.point.uv, 0, 0, sent * pointDensity(w, light), 0);
         p.light = light;
         p.bsdfPdf = pdf;
     }
+    PROBE_CLOSE(lightCandidates);
     p.next = bsdfSample(l.b, l.wo, random3(seed, 1, RANDOM_BSDF));
     p.onward = spawnRay(w, l.s, p.next.wi);
     if (p.lights.wSum <= 0) return startBsdf(p);
@@ -71,7 +76,11 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
 // What the light samples give, all in one: they are as many times likelier to find a point than one of them.
 void takeLight(inout Path p, bool seen) {
     float share = seen && !p.light.delta ? misWeight(float(params.candidates) * p.light.pdf, p.bsdfPdf) : 1;
+    PROBE_OBJECT_OPEN(lightSample);
+    PROBE(hidden, !seen);
+    PROBE(share, share);
     risAdd(p.ris, p.lights.wSum * share, 0);
+    PROBE_CLOSE(lightSample);
 }
 
 // The light that the BSDF sample has found.
@@ -97,8 +106,13 @@ void takeBsdf(inout Path p, World w, Hit hit) {
         return;
     }
     float share = misWeight(p.next.pdf, float(params.candidates) * pdfLight);
+    PROBE_OBJECT_OPEN(bsdfSample);
+    PROBE(pdfs, vec2(p.next.pdf, pdfLight));
+    PROBE(sent, sent);
+    PROBE(share, share);
     if (risAdd(p.ris, luminance(sent) * share, random1(p.decisions, uint(params.candidates), RANDOM_FREE)))
         p.kept = LightReservoir(point.light, point.texel, point.uv, 0, 0, luminance(sent) * p.next.pdf * perPoint, 0);
+    PROBE_CLOSE(bsdfSample);
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
@@ -123,10 +137,19 @@ void mergeHistory(inout Path p, World w, ivec2 pixel) {
     LightReservoir past = history(pixelIndex(before)), own = p.kept;
     past.M = cappedConfidence(past.M, params.cap);
     float pastTarget = targetAt(w, litSurface(w, pixel, frameSize(), here), past), back = targetAt(last, litSurface(last, before, frameSize(), there), own);
+    PROBE_OPEN(candidates);
+    PROBE_TEXT(path, "own");
+    PROBE(confidence, own.M);
+    PROBE(targetFrom, back);
     Ris ris = risStart();
     vec2 u = random2(p.decisions, 0, RANDOM_FREE + 1);
     risAdd(ris, resamplingWeight(balanceMis(own.M * own.pHat, past.M * back), own.pHat, own.W, 1), u.x);
     float m = balanceMis(past.M * past.pHat, own.M * pastTarget);
+    PROBE_OPEN(candidates);
+    PROBE_TEXT(path, "past");
+    PROBE(from, before);
+    PROBE(confidence, past.M);
+    PROBE(targetFrom, past.pHat);
     if (risAdd(ris, resamplingWeight(m, pastTarget, past.W, 1), u.y)) {
         p.kept = past;
         p.kept.pHat = pastTarget;

@@ -40,15 +40,22 @@ LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {
         if (q == pixel) continue;
         LightReservoir other = merged(pixelIndex(q));
         float here = targetAt(w, l, other), there = targetAt(w, litSurface(w, q, frameSize(), hits(pixelIndex(q))), own);
+        PROBE_OPEN(candidates);
+        PROBE(from, q);
         float weight = resamplingWeight(neighbourMis(pairs, other.M, here, other.pHat), here, other.W, 1);
+        PROBE_OBJECT_OPEN(back);
         m += canonicalMis(pairs, other.M, own.pHat, there);
+        PROBE_CLOSE(back);
         if (risAdd(ris, weight, random1(decisions(pixel), i, RANDOM_FREE + 1))) {
             kept = other;
             kept.pHat = here;
         }
     }
+    PROBE_CLOSE(candidates);
+    PROBE_OBJECT_OPEN(ownCandidate);
     if (risAdd(ris, resamplingWeight(m, own.pHat, own.W, 1), random1(decisions(pixel), uint(params.neighbours), RANDOM_FREE + 1))) kept = own;
     kept.W = contributionWeight(ris, kept.pHat);
+    PROBE_CLOSE(ownCandidate);
     kept.M = own.M + sum;
     return kept;
 }

@@ -20,5 +20,6 @@ struct ShadeReservoirs final : Pass {
     Param<View>            view{this, "view", View::radiance, {"radiance", "confidence", "segments", "reconnection", "technique", "place"},
                                 "what to look at: radiance; confidence / 20; segments / 8; reconnection vertex / 8 (black: replayed); "
                                 "light sampling (red), BSDF sampling (green), environment (with blue); place of the path inside its pixel"};
+    InPlace                over{this, resampled, color};
 };
 LODESTIR_PASS(ShadeReservoirs, "shade_reservoirs.comp", "Turns each reservoir into the radiance of its pixel, F(Y) W, or shows what it holds.")

@@ -154,6 +154,7 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint trip, uint way) {
     PrimaryHit centre;
     if (here) centre = hits(place(to));
     else centre = partnerCentre(to);
+    PROBE_SHIFT(way, here ? r.partner : pixel, to);
     ShiftTask task = shiftTo(to, centre, path, hit);
     task.refresh = r.refresh;
     return task;

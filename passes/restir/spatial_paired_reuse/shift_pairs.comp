@@ -40,21 +40,27 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         p.record = NOTHING;
         if (i >= listed(0)) return false;
         p.record = replays(i);
-        slot = p.record % PAIRING_SLOTS;
-        uint at = p.record / PAIRING_SLOTS;
+        slot = p.record % pairing().slots;
+        uint at = p.record / pairing().slots;
         p.pixel = ivec2(at % frameSize().x, at / frameSize().x);
     } else {
-        p.record = place(pixel) * PAIRING_SLOTS + slot;
+        p.record = place(pixel) * pairing().slots + slot;
     }
+    PROBE_START(p.pixel);
+    PROBE_OPEN(shifts);
+    PROBE(partner, slot);
     ivec2 partner = partnerOf(pairing(), drawPairing(roundBits()), slot, p.pixel);
     if (!walksList() && (partner == pixel || !inside(partner) || !similarPixels(p.view, pixelView(w, hits(place(partner)))))) {
+        PROBE_TEXT(none, "the partner lies off the image or is not like this pixel");
         p.shift.jacobian = SHIFT_NO_PARTNER;
         return false;
     }
     Reservoir path = inputReservoir(partner);
+    PROBE_SHIFT(FORTH, partner, p.pixel);
     if (lists() && holdsPath(path) && needsReplay(path)) {
         storeReplays(addListed(0, 1), p.record);
         p.record = NOTHING;
+        PROBE_TEXT(later, "it replays, and is made with the others that do");
         return false;
     }
     return shiftStart(p.shift, w, rules(), shiftTo(p.pixel, hits(place(p.pixel)), path, inputSample(partner)), frameSize());
@@ -65,8 +71,9 @@ bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rul
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
     if (p.record == NOTHING) return;
+    PROBE_SHIFTED(p.shift.path.F, p.shift.jacobian);
     storeShifts(p.record, SharedShift(p.shift.path.F, p.shift.path.G, p.shift.jacobian));
-    if (p.shift.jacobian <= 0.0) return;
+    if (p.shift.jacobian <= 0.0 || rules().pixelCamera != 0u) return;
     PrimaryHit first = p.shift.hit.hit;
     storeFirstHits(p.record, SharedFirstHit(first.instance, first.primitive, first.barycentrics, p.shift.hit.uv));
 }

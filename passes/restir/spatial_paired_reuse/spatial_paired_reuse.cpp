@@ -26,11 +26,11 @@ struct SpatialPairedReuse final : Pass {
     Out<Image>                      color{this, "color",
                                           "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section "
                                           "6.3), linear Rec. 709",
-                                          Format::rgba32f};
-    Scratch<Paths>                  between{this, "between", "what one round hands to the next", Count::perPixel()};
-    Scratch<Buffer<SharedShift>>    shifts{this, "shifts", "of the path of each partner, to the pixel", Count::perPixel(PAIRING_SLOTS)};
-    Scratch<Buffer<SharedFirstHit>> firstHits{this, "firstHits", "of these shifted paths", Count::perPixel(PAIRING_SLOTS)};
-    Scratch<Buffer<uint>>           replays{this, "replays", "shifts that replay, with `compaction`: their places in `shifts`", Count::perPixel(PAIRING_SLOTS)};
+                                          Format::rgba32f, Need::optional};
+    Scratch<Paths>                  between{this, "between", "what one round hands to the next", Count::reserved()};
+    Scratch<Buffer<SharedShift>>    shifts{this, "shifts", "of the path of each partner, to the pixel", Count::reserved()};
+    Scratch<Buffer<SharedFirstHit>> firstHits{this, "firstHits", "of these shifted paths, where the camera sample belongs to the path", Count::reserved()};
+    Scratch<Buffer<uint>>           replays{this, "replays", "shifts that replay, with `compaction`: their places in `shifts`", Count::reserved()};
     Scratch<Buffer<uint>>           listed{this, "listed", "how many they are", Count::fixed(1)};
     Param<int>                      rounds{this, "rounds", 1, {1, 8}, "each round reuses what the one before it made, among other partners"};
     Similarity                      similarity{this};
@@ -41,6 +41,11 @@ struct SpatialPairedReuse final : Pass {
     PassThrough                     off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
+        const std::uint32_t pixels = frame.size().x * frame.size().y, records = pixels * frame.valueOf(pairing).slots;
+        frame.reserve(between, rounds > 1 ? pixels : 0);
+        frame.reserve(shifts, records);
+        frame.reserve(firstHits, frame.valueOf(rules).pixelCamera ? 0 : records);
+        frame.reserve(replays, compaction ? records : 0);
         forRounds(std::uint32_t(rounds), [&](std::uint32_t round, std::uint32_t from, std::uint32_t to) {
             const auto shift = [&](glm::uvec2 extent, std::uint32_t stage) { frame.dispatch("shift_pairs.comp", extent, {round, from, to, stage}); };
             if (compaction) {

@@ -55,6 +55,9 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     float mine = confidence(r.own);
     r.pairs = pairwiseOf(mine, sum);
     r.ownShare = r.pairs.start;
+    PROBE_RESERVOIR(own, r.own);
+    PROBE(neighboursConfidence, sum);
+    PROBE(ownShareAtFirst, r.ownShare);
     r.ris = risStart();
     r.radiance = vec3(0);
     r.kept = emptyReservoir(0);
@@ -76,6 +79,7 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way)
     if (way == FORTH) {
         r.neighbour = neighbourOf(w, pixel, r.view, partner);
         r.confidence = 0;
+        PROBE_TEXT_IF(none, "the pixel that was drawn lies off the image or is not like this one", r.neighbour == pixel);
         if (r.neighbour == pixel) return shiftOfNothing();
         to = pixel;
         path = inputReservoir(r.neighbour);
@@ -85,6 +89,7 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way)
         r.W = path.W;
     }
     if (r.confidence == 0) return shiftOfNothing();
+    PROBE_SHIFT(way, way == FORTH ? r.neighbour : pixel, to);
     return shiftTo(to, hits(place(to)), path, hit);
 }
 
@@ -93,16 +98,22 @@ void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift resul
     float pHat = target(result.path);
     if (way == BACK) {
         if (holdsPath(r.own)) r.ownShare += canonicalMis(r.pairs, r.confidence, target(r.own), pHatFromReverse(pHat, result.jacobian));
+        PROBE(ownShare, r.ownShare);
     } else if (result.jacobian > 0) {
+        PROBE_OBJECT_OPEN(candidate);
         float m = neighbourMis(r.pairs, r.confidence, pHat, pHatFromForward(r.pHat, result.jacobian));
         offer(r, pixel, WAYS * partner, result.path, result.hit, resamplingWeight(m, pHat, r.W, result.jacobian));
     }
 }
 
 void reuseEnd(Reuse r, ivec2 pixel) {
+    PROBE_OBJECT_OPEN(ownCandidate);
     offer(r, pixel, WAYS * reusePartners(), r.own, r.ownHit, resamplingWeight(r.ownShare, target(r.own), r.own.W, 1));
+    PROBE_CLOSE(ownCandidate);
     r.kept.W = contributionWeight(r.ris, target(r.kept));
     setConfidence(r.kept, r.pairs.canonical + r.pairs.neighbours);
+    PROBE_RESERVOIR(kept, r.kept);
+    PROBE(color, r.radiance);
     storeRound(pixel, r.kept, r.keptHit);
     if (lastRound()) storeColor(pixel, vec4(r.radiance, 1));
 }

@@ -22,8 +22,8 @@ struct SpatialReuse final : Pass {
     Out<Image>             color{this, "color",
                                  "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section 6.3), "
                                  "linear Rec. 709",
-                                 Format::rgba32f};
-    Scratch<Paths>         between{this, "between", "what one round hands to the next", Count::perPixel()};
+                                 Format::rgba32f, Need::optional};
+    Scratch<Paths>         between{this, "between", "what one round hands to the next", Count::reserved()};
     Param<int>             neighbours{this, "neighbours", 3, {1, 16}, "neighbours a round"};
     Param<int>             rounds{this, "rounds", 1, {1, 8}, "each round reuses what the one before it made"};
     Neighbourhood          around{this};
@@ -31,6 +31,7 @@ struct SpatialReuse final : Pass {
     PassThrough            off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
+        frame.reserve(between, rounds > 1 ? frame.size().x * frame.size().y : 0);
         forRounds(std::uint32_t(rounds), [&](std::uint32_t round, std::uint32_t from, std::uint32_t to) {
             frame.dispatch(shader, frame.size(), {round, from, to});
         });

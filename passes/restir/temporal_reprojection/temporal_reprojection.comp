@@ -47,6 +47,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
 ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
     if (r.confidence == 0) return shiftOfNothing();
     ShiftTask task;
+    PROBE_SHIFT(way, way == FORTH ? r.before : pixel, way == FORTH ? pixel : r.before);
     if (way == FORTH) task = shiftTo(pixel, hits(place(pixel)), r.past, r.pastHit);
     else task = shiftTo(r.before, hitsPrev(place(r.before)), r.own, r.ownHit);
     task.refresh = r.refresh;
@@ -71,6 +72,9 @@ void reuseEnd(Reuse r, ivec2 pixel) {
     SampleHit keptHit = r.ownHit;
     float mine = confidence(r.own);
     vec3 radiance = shadeReservoir(r.own);
+    PROBE_RESERVOIR(own, r.own);
+    PROBE(before, r.before);
+    PROBE(confidencePast, r.confidence);
     if (r.confidence > 0) {
         // Generalised balance heuristic of two (Lin et al. 2022, Eq. 36).
         float mOwn = balanceMis(mine * target(r.own), r.confidence * r.back);
@@ -78,17 +82,28 @@ void reuseEnd(Reuse r, ivec2 pixel) {
         Ris ris = risStart();
         uvec2 decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
         vec2 u = random2(decisions, 0, RANDOM_FREE);
+        PROBE_OPEN(candidates);
+        PROBE_TEXT(path, "own");
+        PROBE(confidence, mine);
+        PROBE(targetFrom, r.back);
         float wOwn = resamplingWeight(mOwn, target(r.own), r.own.W, 1);
+        risAdd(ris, wOwn, u.x);
+        PROBE_OPEN(candidates);
+        PROBE_TEXT(path, "past");
+        PROBE(confidence, r.confidence);
+        PROBE(targetFrom, pHatFromForward(r.pastTarget, r.jacobian));
         float wPast = r.jacobian > 0 ? resamplingWeight(mPast, target(r.past), r.past.W, r.jacobian) : 0;
         radiance = candidateRadiance(r.own, wOwn) + candidateRadiance(r.past, wPast);
-        risAdd(ris, wOwn, u.x);
         if (risAdd(ris, wPast, u.y)) {
             kept = r.past;
             keptHit = r.pastHit;
         }
         kept.W = contributionWeight(ris, target(kept));
+        PROBE_CLOSE(candidates);
         setConfidence(kept, mine + r.confidence);
     }
+    PROBE_RESERVOIR(kept, kept);
+    PROBE(color, radiance);
     storePathsReservoirs(place(pixel), kept);
     storePathsSamples(place(pixel), keptHit);
     storeColor(pixel, vec4(radiance, 1));

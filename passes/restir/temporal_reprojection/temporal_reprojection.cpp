@@ -21,11 +21,12 @@ struct TemporalReprojection final : Pass {
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
-                                 Format::rgba32f};
+                                 Format::rgba32f, Need::optional};
     History                reused{this};
     Similarity             similarity{this, -1, 1e6f};
     SuffixRule             suffix{this};
     PassThrough            off{this, paths, pathsOut};
+    InPlace                over{this, paths, pathsOut};
 };
 LODESTIR_PASS(TemporalReprojection, "temporal_reprojection.comp",
               "Resamples each pixel's path with the one that last frame held where the pixel was (ReSTIR PT's temporal reuse).")

@@ -141,6 +141,7 @@ int Glb::addMaterial(const Material& m) {
         extended["KHR_materials_anisotropy"] = {{"anisotropyStrength", tidy(m.anisotropy)}, {"anisotropyRotation", tidy(m.anisotropyRotation)}};
     if (m.specular != 1 || m.specularColor != glm::vec3(1))
         extended["KHR_materials_specular"] = {{"specularFactor", tidy(m.specular)}, {"specularColorFactor", array(m.specularColor)}};
+    if (m.unlit) extended["KHR_materials_unlit"] = json::object();
     for (const auto& [name, value] : extended.items()) use(name);
     if (!extended.empty()) material["extensions"] = extended;
     tables->materials.push_back(material);

@@ -19,7 +19,7 @@
 namespace lodestir::generate {
 
 /// A metallic-roughness material with the extensions path tracers read (emissive_strength, transmission, volume, ior, clearcoat, sheen,
-/// anisotropy, specular).
+/// anisotropy, specular, unlit).
 /// Texture members are indices from Glb::addPicture, or none.
 struct Material {
     static constexpr int none = -1;
@@ -43,6 +43,7 @@ struct Material {
     glm::vec3 specularColor{1};
     bool mask = false;  ///< cut out where alpha is below one half
     bool doubleSided = false;
+    bool unlit = false;  ///< shows its colour as it is: emits it, reflects nothing, and is no lamp (KHR_materials_unlit)
     int colorPicture = none;
     int normalPicture = none;
     int roughnessPicture = none;

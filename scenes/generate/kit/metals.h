@@ -6,6 +6,7 @@
 
 namespace lodestir::generate {
 
-inline constexpr glm::vec3 gold{1.0f, 0.77f, 0.34f}, copper{0.95f, 0.64f, 0.54f}, steel{0.56f, 0.57f, 0.58f}, silver{0.93f, 0.92f, 0.89f};
+inline constexpr glm::vec3 gold{1.0f, 0.77f, 0.34f}, copper{0.95f, 0.64f, 0.54f}, steel{0.56f, 0.57f, 0.58f}, silver{0.93f, 0.92f, 0.89f},
+    chrome{0.65f, 0.68f, 0.70f};
 
 }  // namespace lodestir::generate

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Surfaces as if washed with watercolour: nearly white pictures whose tones gather at edges and in the grain of the paper, to be tinted by the
+// material's colour or the mesh's.
+#pragma once
+
+#include <cstdint>
+
+#include "picture.h"
+
+namespace lodestir::generate {
+
+/// A wash that dried in patches; repeats after washSize metres.
+Textures paintWash(uint32_t seed, int width);
+constexpr float washSize = 4.0f;
+
+/// Courses of roof tiles, each a stroke of the brush; u along the ridge, repeats after roofSize metres.
+Textures paintRoof(uint32_t seed, int width);
+constexpr float roofSize = 3.0f;
+
+}  // namespace lodestir::generate
