@@ -14,7 +14,7 @@ namespace lodestir::generate {
 /// Materials of a kitchen, as indices.
 struct KitchenPaints {
     int front, carcass, counter;  ///< of cabinets: painted doors, what is dark behind and below them, the stone above
-    int chrome, steel, black, glass, leather;
+    int chrome, steel, black, leather;
 };
 
 /// What a cabinet shows.

@@ -45,7 +45,7 @@ Paints addPaints(Glb& glb) {
     p.plaster = glb.addMaterial(glb.dressed({.name = "plaster"}, paintPlaster({0.87f, 0.86f, 0.83f}, 1, 512)));
     p.chrome = glb.addMaterial({.name = "chrome", .color = chrome, .roughness = 0.04f, .metalness = 1});
     p.mirror = glb.addMaterial({.name = "mirror", .color = silver, .roughness = 0, .metalness = 1});
-    // Panes are sheets, one surface each, which light crosses straight.
+    // Panes are sheets, one surface each: light crosses the shower straight, and the frosted window spreads it.
     p.glass = glb.addMaterial({.name = "shower_glass", .color = {0.93f, 0.97f, 0.95f}, .roughness = 0, .transmission = 1, .doubleSided = true});
     p.window = glb.addMaterial({.name = "frosted_pane", .color = {0.97f, 0.98f, 0.98f}, .roughness = 0.4f, .transmission = 1, .doubleSided = true});
     p.edge = glb.addMaterial({.name = "cut_edge", .color = {0.10f, 0.34f, 0.26f}, .roughness = 0.1f});

@@ -3,7 +3,6 @@
 // comes from few bright spots, so that resampling has few paths to choose from and many pixels copy the same one.
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "kit/cloth.h"
 #include "kit/foliage.h"
 #include "kit/furniture.h"
 #include "kit/kitchen.h"
@@ -54,7 +53,6 @@ Paints addPaints(Glb& glb) {
     p.kitchen.black = glb.addMaterial({.name = "black_glass", .color = glm::vec3(0.012f), .roughness = 0.06f});
     p.kitchen.leather = glb.addMaterial({.name = "leather", .color = {0.30f, 0.105f, 0.045f}, .roughness = 0.42f});
     p.kit.trim = glb.addMaterial({.name = "trim", .color = {0.80f, 0.78f, 0.74f}, .roughness = 0.32f});
-    p.kit.walnut = glb.addMaterial(glb.dressed({.name = "walnut"}, paintPanel(walnut(), 22, 512)));
     p.kit.blackMetal = glb.addMaterial({.name = "lamp_shade", .color = {0.10f, 0.16f, 0.15f}, .roughness = 0.2f});
     p.kit.enamel = p.enamel;
     p.kit.brass = glb.addMaterial({.name = "brass", .color = {0.83f, 0.62f, 0.30f}, .roughness = 0.2f, .metalness = 1});
