@@ -185,7 +185,7 @@ void offerEmission(inout PathTree p, ShiftRules rules, Hit hit, Surface s, vec3 
 }
 
 /// A light sample at x_j (next-event estimation). False: no light.
-bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, vec3 wo, float distance) {
+bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, LobeChances chance, vec3 wo, float distance) {
     // Resampled importance sampling of a candidate by what it would send if nothing were in the way.
     uint candidates = lightCandidates(rules, p.vertex);
     LightDraw draw = drawLights(p.seed, p.vertex, candidates);
@@ -198,7 +198,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         LightSample l = lightSampleAt(w, drawnLight(w, draw, i), s.position);
         if (l.radianceOverPdf == vec3(0.0)) continue;
         float pdf;
-        vec3 f = bsdfEval(b, wo, onGrid(l.direction), pdf);
+        vec3 f = bsdfEval(b, chance, wo, onGrid(l.direction), pdf);
         vec3 sent = f * l.radianceOverPdf * lightShare(rules, p.vertex, l.pdf, pdf);
         PROBE_OPEN(lightCandidates);
         PROBE(light, l.point.light);
@@ -222,7 +222,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
     uint kind = type == LIGHT_TRIANGLE ? PATH_LIGHT_TRIANGLE : type == LIGHT_ENVIRONMENT ? PATH_LIGHT_ENVIRONMENT : PATH_LIGHT_PUNCTUAL;
     PathShape shape = PathShape(p.vertex + 1u, p.k, true, kind, p.lobeBefore, p.lobeAt);
     Reservoir path = p.spine;
-    float density = p.density, pdfLight = light.delta ? 1.0 : light.pdf, roughness = roughestLobe(b, wo);
+    float density = p.density, pdfLight = light.delta ? 1.0 : light.pdf, roughness = roughestLobe(b, chance);
     vec3 throughput = p.throughput;
     TrianglePlace rc = p.rc;
     if (p.k > 0u) {
@@ -253,7 +253,7 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
 }
 
 /// The spine's next direction. False: it ends here.
-bool growSpine(inout PathTree p, World w, TreeLimits limits, Surface s, Bsdf b, vec3 wo, float distance) {
+bool growSpine(inout PathTree p, World w, TreeLimits limits, Surface s, Bsdf b, LobeChances chance, vec3 wo, float distance) {
     PROBE_CLOSE(offers);
     if (limits.roulette) {
         float q = min(luminance(p.throughput), 1.0);
@@ -262,8 +262,8 @@ bool growSpine(inout PathTree p, World w, TreeLimits limits, Surface s, Bsdf b, 
         if (random1(p.seed, p.vertex, RANDOM_ROULETTE) >= q) return false;
         p.survival *= q;
     }
-    BsdfDirection d = pathDirection(b, wo, p.seed, p.vertex);
-    BsdfSample next = d.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d) : lobeSample(d, bsdfValue(b, d.lobe, wo, d.wi));
+    BsdfDirection d = pathDirection(b, chance, wo, p.seed, p.vertex);
+    BsdfSample next = d.delta || d.lobe == LOBE_COUNT ? deltaSample(b, d) : lobeSample(d, bsdfValue(b, chance, d.lobe, wo, d.wi));
     PROBE_CHOICE(lobe, next.lobe, "diffuse|reflection|transmission|coat|through|absorbed");
     PROBE(next, next.wi);
     PROBE(lobePdf, next.lobePdf);
@@ -355,8 +355,9 @@ bool treeStep(inout PathTree p, World w, ShiftRules rules, TreeLimits limits, Hi
     }
     if (escaped || j == limits.segmentsMax) return false;
     Bsdf b = bsdfAt(w, s);
-    if (j + 1u >= limits.segmentsMin && !bsdfAllDelta(b, -direction)) p.toLight = offerLight(p, w, rules, s, b, -direction, distance);
-    p.ends = !growSpine(p, w, limits, s, b, -direction, distance);
+    LobeChances chance = lobeProbabilities(b, -direction);
+    if (j + 1u >= limits.segmentsMin && !bsdfAllDelta(b, chance)) p.toLight = offerLight(p, w, rules, s, b, chance, -direction, distance);
+    p.ends = !growSpine(p, w, limits, s, b, chance, -direction, distance);
     if (p.toLight) return true;
     p.ray = p.onward;
     return !p.ends;

@@ -28,8 +28,8 @@ float connectionTerm(vec3 from, Surface s) { return geometryTerm(from, s.positio
 float connectionTerm(World w, LightSample l) { return l.distance < FAR && !l.delta ? w.lights.at[l.point.light].pmf / l.pdf : 1.0; }
 
 /// A direction of the path and the lobe it came from, by the path's own numbers.
-BsdfDirection pathDirection(Bsdf b, vec3 wo, uvec2 seed, uint vertex) {
-    BsdfDirection d = bsdfDirection(b, wo, random3(seed, vertex, RANDOM_BSDF));
+BsdfDirection pathDirection(Bsdf b, LobeChances chance, vec3 wo, uvec2 seed, uint vertex) {
+    BsdfDirection d = bsdfDirection(b, chance, wo, random3(seed, vertex, RANDOM_BSDF));
     if (!d.delta && d.wi != vec3(0.0)) d.wi = onGrid(d.wi);
     return d;
 }
@@ -57,8 +57,8 @@ ConnectionCriteria criteriaOf(ShiftRules rules, uvec2 seed, float distance, floa
 }
 
 /// Roughness of a vertex that scatters towards a light sample with all its lobes: that of the roughest. 0 where all are delta lobes.
-float roughestLobe(Bsdf b, vec3 wo) {
-    vec4 chance = lobeProbabilities(b, wo).scatter;
+float roughestLobe(Bsdf b, LobeChances chances) {
+    vec4 chance = chances.scatter;
     if (chance.x > 0.0) return 1.0;
     float base = max(chance.y > 0.0 ? lobeRoughness(b, LOBE_REFLECTION) : 0.0, chance.z > 0.0 ? lobeRoughness(b, LOBE_TRANSMISSION) : 0.0);
     return max(base, chance.w > 0.0 ? lobeRoughness(b, LOBE_COAT) : 0.0);

@@ -204,13 +204,13 @@ struct Departure {
 SurfacePoint connectedPoint(Shift t) { return SurfacePoint(t.path.rcInstance, t.path.rcPrimitive, t.hit.rc.barycentrics); }
 
 /// Direction and lobe. False: x_k is of a level that this World doesn't show.
-bool depart(Shift t, World w, Surface s, Bsdf b, vec3 wo, bool target, out Departure d) {
+bool depart(Shift t, World w, Surface s, Bsdf b, LobeChances chance, vec3 wo, bool target, out Departure d) {
     uint j = t.vertex, kind = reconnectionKind(t.shape);
     bool lastBeforeLight = t.shape.nee && j + 1u == t.shape.d;
     d.towards = j + 1u == t.shape.k && kind != RC_LIGHT ? TOWARDS_TARGET
                 : lastBeforeLight && (!target || t.refresh) ? TOWARDS_LIGHT : target ? TOWARDS_SUFFIX : TOWARDS_SAMPLE;
     if (d.towards == TOWARDS_SAMPLE) {
-        d.next = pathDirection(b, wo, t.path.seed, j);
+        d.next = pathDirection(b, chance, wo, t.path.seed, j);
         d.lobe = d.next.lobe;
         d.way = d.next.wi;
     } else if (d.towards == TOWARDS_LIGHT) {
@@ -349,14 +349,15 @@ bool shiftVertex(inout Shift t, World w, ShiftRules rules, inout Hit hit, inout 
     }
     Bsdf b = bsdfAt(w, s);
     vec3 wo = -direction;
+    LobeChances chance = lobeProbabilities(b, wo);
     Departure d;
-    if (!depart(t, w, s, b, wo, target, d)) {
+    if (!depart(t, w, s, b, chance, wo, target, d)) {
         PROBE_TEXT(failed, "x_k is of a level that is not shown here");
         shiftFail(t);
         return false;
     }
-    float roughness = d.lobe == LOBE_ALL ? roughestLobe(b, wo) : lobeRoughness(b, d.lobe);
-    BsdfValue value = bsdfValue(b, d.lobe, wo, d.way);
+    float roughness = d.lobe == LOBE_ALL ? roughestLobe(b, chance) : lobeRoughness(b, d.lobe);
+    BsdfValue value = bsdfValue(b, chance, d.lobe, wo, d.way);
     PROBE_CHOICE(towards, d.towards, "next vertex, by the path's numbers|light sample|x_k|what follows x_k");
     PROBE_CHOICE(lobe, min(d.lobe, LOBE_COUNT + 1u), "diffuse|reflection|transmission|coat|through|absorbed|all");
     PROBE(roughness, roughness);

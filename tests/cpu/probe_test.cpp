@@ -157,12 +157,14 @@ TEST_F(ProbeClosure, NothingIsLeftOfItWhereNothingIsProbed) {
     PluginLibraries libraries;
     for (const char* name : {"restir_pt.json", "restir_pt_enhanced.json", "restir_lod.json", "restir_pt_2022.json"}) {
         const Graph graph = buildGraph(loadDescription(Path(LODESTIR_SOURCE_DIR) / "graphs" / name, {}), libraries);
+        const Plan plan = makePlan(graph);
         for (std::size_t node = 0; node < graph.nodes.size(); ++node) {
             const GraphNode& n = graph.nodes[node];
             if (n.pass->shader.empty()) continue;
             for (const auto& entry : std::filesystem::directory_iterator(shaderOf(*n.plugin, n.pass->shader).parent_path())) {
                 if (entry.path().extension() != ".comp" || entry.path().string().ends_with(".test.comp")) continue;
-                gpu::ShaderSource source{entry.path(), includeFolders(*n.plugin), {{"pass.glsl", passHeader(graph, int(node))}}, {{"TRACE_PACKET", "1"}}};
+                gpu::ShaderSource source{
+                    entry.path(), includeFolders(*n.plugin), {{"pass.glsl", passHeader(graph, plan, int(node))}}, {{"TRACE_PACKET", "1"}}};
                 for (const Path& file : gpu::IncludeClosure(source.file, source.folders, source.generated).files())
                     if (file.filename() == "driver.glsl") source.defines.emplace_back("TRACE_DRIVER", "1");
                 gpu::ShaderSource without = source;

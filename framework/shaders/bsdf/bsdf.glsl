@@ -160,8 +160,8 @@ float lobeChance(LobeChances c, uint lobe) { return lobe < LOBE_THROUGH ? c.scat
 float chanceSum(LobeChances c) { return dot(c.scatter, vec4(1.0)) + c.through; }
 
 /// Chances of the lobes, from the light that each sends under the Fresnel terms of the view angle. Their sum is 1, or 0 where the surface
-/// is black. A lobe that can send light has LOBE_SHARE at least (before the sum is made 1). `layers` are those of wo and any other direction.
-LobeChances lobeProbabilities(Bsdf b, vec3 wo, LayerShares layers) {
+/// is black. A lobe that can send light has LOBE_SHARE at least (before the sum is made 1).
+LobeChances lobeProbabilities(Bsdf b, vec3 wo) {
     float cosine = clamp(dot(b.normal, wo), 0.0, 1.0), dielectric = 1.0 - b.metallic;
     float fresnel = fresnelDielectric(cosine, b.eta), base = luminance(b.base), under = 1.0 - dielectricShare(b, fresnel);
     vec4 share = vec4(dielectric * (1.0 - b.transmission) * under * base,             // diffuse
@@ -174,6 +174,7 @@ LobeChances lobeProbabilities(Bsdf b, vec3 wo, LayerShares layers) {
         possible.z = possible.z || dielectric * b.transmission * base > 0.0;
     }
     if (hasCoat(b) || hasSheen(b)) {
+        LayerShares layers = layerShares(b, wo, wo);
         float albedo = min(layers.sheen.x, 1.0), sheen = layers.underCoat.x * albedo;
         share.xyz = share.xyz * (layers.underCoat.x - sheen * maxComponent(b.sheen)) + vec3(sheen * luminance(b.sheen), 0.0, 0.0);
         share.w = dot(b.coatNormal, wo) > 0.0 ? 1.0 - layers.underCoat.x : 0.0;
@@ -192,8 +193,6 @@ LobeChances lobeProbabilities(Bsdf b, vec3 wo, LayerShares layers) {
     return chance;
 }
 
-LobeChances lobeProbabilities(Bsdf b, vec3 wo) { return lobeProbabilities(b, wo, layerShares(b, wo, wo)); }
-
 /// Adds one lobe's f |cos| and density to the sums.
 void addLobe(inout BsdfValue value, bool isAsked, vec3 f, float pdf) {
     value.all += f;
@@ -203,14 +202,14 @@ void addLobe(inout BsdfValue value, bool isAsked, vec3 f, float pdf) {
     value.onePdf = pdf;
 }
 
-/// f |cos| and densities for light from wi seen from wo; `one` is the given lobe. Zero where a side is wrong.
-BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
+/// f |cos| and densities for light from wi seen from wo; `one` is the given lobe, `chance` the chances of all as seen from wo: whoever asks for several
+/// directions makes them once. Zero where a side is wrong.
+BsdfValue bsdfValue(Bsdf b, LobeChances chance, uint lobe, vec3 wo, vec3 wi) {
     BsdfValue value = BsdfValue(vec3(0.0), vec3(0.0), 0.0, 0.0);
     float cosO = dot(b.normal, wo), cosI = dot(b.normal, wi), side = dot(b.geometric, wi);
     bool reflected = cosI > 0.0 && side > 0.0, transmitted = cosI < 0.0 && side < 0.0, coated = hasCoat(b) && side > 0.0;
     if (!(cosO > 0.0 && (reflected || transmitted || coated))) return value;
     LayerShares layers = layerShares(b, wo, wi);
-    LobeChances chance = lobeProbabilities(b, wo, layers);
     float dielectric = 1.0 - b.metallic, scale = b.coverage * layers.leave;
 
     if (reflected && chance.scatter.x > 0.0) {
@@ -255,12 +254,15 @@ BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) {
     return value;
 }
 
+BsdfValue bsdfValue(Bsdf b, uint lobe, vec3 wo, vec3 wi) { return bsdfValue(b, lobeProbabilities(b, wo), lobe, wo, wi); }
+
 /// f |cos| over all lobes that are not delta lobes, and the density with which bsdfSample finds wi by them.
-vec3 bsdfEval(Bsdf b, vec3 wo, vec3 wi, out float pdf) {
-    BsdfValue value = bsdfValue(b, LOBE_ALL, wo, wi);
+vec3 bsdfEval(Bsdf b, LobeChances chance, vec3 wo, vec3 wi, out float pdf) {
+    BsdfValue value = bsdfValue(b, chance, LOBE_ALL, wo, wi);
     pdf = value.pdf;
     return value.all;
 }
+vec3 bsdfEval(Bsdf b, vec3 wo, vec3 wi, out float pdf) { return bsdfEval(b, lobeProbabilities(b, wo), wo, wi, pdf); }
 
 /// The same for one lobe; the density holds the lobe's probability. Zero for delta lobes.
 vec3 lobeEval(Bsdf b, uint lobe, vec3 wo, vec3 wi, out float pdf) {
@@ -270,8 +272,8 @@ vec3 lobeEval(Bsdf b, uint lobe, vec3 wo, vec3 wi, out float pdf) {
 }
 
 /// No lobe that light sampling could serve.
-bool bsdfAllDelta(Bsdf b, vec3 wo) {
-    vec4 chance = lobeProbabilities(b, wo).scatter;
+bool bsdfAllDelta(Bsdf b, LobeChances chances) {
+    vec4 chance = chances.scatter;
     return !(chance.x > 0.0 || (chance.y > 0.0 && !reflectionDelta(b)) || (chance.z > 0.0 && !transmissionDelta(b)) ||
              (chance.w > 0.0 && !coatDelta(b)));
 }
@@ -340,9 +342,8 @@ struct BsdfDirection {
 };
 
 /// u.x chooses the lobe, u.yz the direction.
-BsdfDirection bsdfDirection(Bsdf b, vec3 wo, vec3 u) {
+BsdfDirection bsdfDirection(Bsdf b, LobeChances chance, vec3 wo, vec3 u) {
     BsdfDirection result = BsdfDirection(vec3(0.0), LOBE_COUNT, false, 0.0, vec3(0.0));
-    LobeChances chance = lobeProbabilities(b, wo);
     uint lobe = chooseLobe(chance, u.x);
     if (lobe == LOBE_COUNT || !(dot(b.normal, wo) > 0.0)) return result;
     result.wi = safeNormalize(lobeDirection(b, lobe, wo, u.yz, result.deltaValue), vec3(0.0));
@@ -367,8 +368,9 @@ BsdfSample lobeSample(BsdfDirection d, BsdfValue value) {
 }
 
 /// Samples a direction that light may come from.
-BsdfSample bsdfSample(Bsdf b, vec3 wo, vec3 u) {
-    BsdfDirection d = bsdfDirection(b, wo, u);
+BsdfSample bsdfSample(Bsdf b, LobeChances chance, vec3 wo, vec3 u) {
+    BsdfDirection d = bsdfDirection(b, chance, wo, u);
     if (d.delta || d.lobe == LOBE_COUNT) return deltaSample(b, d);
-    return lobeSample(d, bsdfValue(b, d.lobe, wo, d.wi));
+    return lobeSample(d, bsdfValue(b, chance, d.lobe, wo, d.wi));
 }
+BsdfSample bsdfSample(Bsdf b, vec3 wo, vec3 u) { return bsdfSample(b, lobeProbabilities(b, wo), wo, u); }

@@ -200,7 +200,7 @@ void check(Bsdf b, vec3 wo, uint i, uint angle, uint base) {
     float delta = (reflectionDelta(b) ? chance.scatter.y : 0.0) + (transmissionDelta(b) ? chance.scatter.z : 0.0) +
                   (coatDelta(b) ? chance.scatter.w : 0.0) + chance.through;
     EXPECT_NEAR(sums[DELTA_COUNT] / total, delta, 4.5 * sqrt(delta / total));
-    EXPECT_EQ(bsdfAllDelta(b, wo), sums[BINNED] == 0.0);
+    EXPECT_EQ(bsdfAllDelta(b, chance), sums[BINNED] == 0.0);
     EXPECT_NEAR(chanceSum(chance), i == 14u ? 0.0 : 1.0, 1e-6);
 }
 

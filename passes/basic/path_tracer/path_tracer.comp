@@ -83,10 +83,11 @@ bool scatter(inout Path p, World w, Hit hit) {
     vec3 wo = -direction;
 
     // A light sample (next-event estimation).
-    if (!bsdfAllDelta(b, wo)) {
+    LobeChances chance = lobeProbabilities(b, wo);
+    if (!bsdfAllDelta(b, chance)) {
         LightSample l = sampleLight(w, s.position, randomBits3(p.seed, vertex, RANDOM_LIGHT_CHOICE), random3(p.seed, vertex, RANDOM_LIGHT_POINT));
         float pdfBsdf;
-        vec3 f = bsdfEval(b, wo, l.direction, pdfBsdf);
+        vec3 f = bsdfEval(b, chance, wo, l.direction, pdfBsdf);
         p.direct = p.throughput * f * l.radianceOverPdf * sampledShare(technique(), l.pdf, pdfBsdf);
         PROBE_OBJECT_OPEN(lightSample);
         PROBE(light, l.point.light);
@@ -102,7 +103,7 @@ bool scatter(inout Path p, World w, Hit hit) {
     }
 
     // The next direction, and whether roulette lets the path live.
-    BsdfSample next = bsdfSample(b, wo, random3(p.seed, vertex, RANDOM_BSDF));
+    BsdfSample next = bsdfSample(b, chance, wo, random3(p.seed, vertex, RANDOM_BSDF));
     PROBE_CHOICE(lobe, next.lobe, "diffuse|reflection|transmission|coat|through|absorbed");
     PROBE(next, next.wi);
     PROBE(pdf, next.pdf);

@@ -42,13 +42,13 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     if (l.sky) return false;
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
     float count = float(params.candidates);
-    bool lit = !bsdfAllDelta(l.b, l.wo);
+    bool lit = !bsdfAllDelta(l.b, l.chance);
     for (uint i = 0; lit && i < uint(params.candidates); ++i) {
         uint tag = i << 8;
         LightSample light = sampleLight(w, l.s.position, randomBits3(seed, 1, RANDOM_LIGHT_CHOICE | tag), random3(seed, 1, RANDOM_LIGHT_POINT | tag));
         if (light.radianceOverPdf == vec3(0)) continue;
         float pdf;
-        float sent = luminance(bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf);
+        float sent = luminance(bsdfEval(l.b, l.chance, l.wo, light.direction, pdf) * light.radianceOverPdf);
         PROBE_OPEN(lightCandidates);
         PROBE(light, light.point.light);
         PROBE(lightPdf, light.pdf);
@@ -59,7 +59,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
         p.bsdfPdf = pdf;
     }
     PROBE_CLOSE(lightCandidates);
-    p.next = bsdfSample(l.b, l.wo, random3(seed, 1, RANDOM_BSDF));
+    p.next = bsdfSample(l.b, l.chance, l.wo, random3(seed, 1, RANDOM_BSDF));
     p.onward = spawnRay(w, l.s, p.next.wi);
     if (p.lights.wSum <= 0) return startBsdf(p);
     p.asksLight = true;

@@ -15,6 +15,7 @@ struct LitSurface {
     Surface s;
     Bsdf b;
     vec3 wo;
+    LobeChances chance;
 };
 
 /// `h`: what pixel `p` of an image of `size` pixels sees.
@@ -25,6 +26,7 @@ LitSurface litSurface(World w, ivec2 p, uvec2 size, PrimaryHit h) {
     l.wo = -cameraRay(w, filmOf(p, h.film, size), h.lens).direction;
     l.s = surfaceAt(w, hitOf(h), -l.wo);
     l.b = bsdfAt(w, l.s);
+    l.chance = lobeProbabilities(l.b, l.wo);
     return l;
 }
 
@@ -37,7 +39,7 @@ float pointDensity(World w, LightSample l) {
 /// f |cos| L of the light point seen from the surface, per its own measure.
 vec3 arriving(World w, LitSurface l, LightSample light) {
     float pdf;
-    return bsdfEval(l.b, l.wo, light.direction, pdf) * light.radianceOverPdf * pointDensity(w, light);
+    return bsdfEval(l.b, l.chance, l.wo, light.direction, pdf) * light.radianceOverPdf * pointDensity(w, light);
 }
 
 LightPoint lightPoint(LightReservoir r) { return LightPoint(r.light, r.texel, r.uv); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// See ajar_room.h. The camera's room is in front of z = 0, the lit one behind; the lamps hang where the gap of the door doesn't show them.
+// See ajar_room.h. The camera's room is in front of z = 0, the lit one behind.
 #include "ajar_room.h"
 
 #include <algorithm>
@@ -124,9 +124,9 @@ Glb ajarRoom(bool wallMetal) {
 
     glb.addNode(wardrobe(p), {.translation = {left + 0.01f, 0, -1.72f}, .rotation = turnY(90)});
 
-    // An uplighter, higher than the door: what leaves it meets the ceiling or a wall of the lit room first, so all that passes the gap is indirect.
-    const int lamp = glb.addMaterial(glow("lamp", {300, 290, 275})), tray = glb.addMaterial({.name = "tray", .color = glm::vec3(0.6f), .roughness = 0.5f});
-    glb.addNode(areaLamp("lamp", lamp, tray, {-0.75f, doorHead + 0.14f, -1.35f}, {0, 1, 0}, {1.1f, 0.9f}));
+    // An uplighter that leans away from the door: the whole room of the teapots lies behind its plane, so that all light there is indirect.
+    const int lamp = glb.addMaterial(glow("lamp", {380, 367, 348})), tray = glb.addMaterial({.name = "tray", .color = glm::vec3(0.6f), .roughness = 0.5f});
+    glb.addNode(areaLamp("lamp", lamp, tray, {-0.75f, doorHead + 0.23f, -1.35f}, {0, 1, -0.325f}, {1.3f, 0.6f}));
 
     const glm::vec3 table(0.42f, 0, 1.02f);
     glb.addNode(diningTable(p, {1.7f, 0.8f}), {.translation = table});

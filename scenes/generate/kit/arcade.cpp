@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "shapes.h"
@@ -94,7 +95,7 @@ Mesh archBay(const ArchBay& bay) {
         const auto quad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) { side > 0 ? mesh.quad(a, b, c, d) : mesh.quad(d, c, b, a); };
         for (size_t i = 0; i + 1 < line.opening.size(); ++i)
             quad(point(line.wall[i]), point(line.opening[i]), point(line.opening[i + 1]), point(line.wall[i + 1]));
-        if (bay.sill > 0) {
+        if (bay.sill > 0 && !bay.afloat) {
             const float half = bay.width / 2, r = bay.opening / 2;
             const float xs[] = {-half, -r, r, half};  // the wall's corners and the opening's: no joint without a vertex
             for (int i = 0; i < 3; ++i) quad(point({xs[i], 0}), point({xs[i + 1], 0}), point({xs[i + 1], bay.sill}), point({xs[i], bay.sill}));
@@ -108,7 +109,7 @@ Mesh archBay(const ArchBay& bay) {
         mesh.quad(point(a, z, travelled), point(a, -z, travelled), point(b, -z, next), point(b, z, next));
         travelled = next;
     }
-    if (bay.sill > 0) {
+    if (bay.sill > 0 && !bay.afloat) {
         Mesh sill = rectangle({-bay.opening / 2, bay.sill, -z}, {bay.opening, 0, 0}, {0, 0, bay.depth});
         scaleUv(sill, {bay.opening, bay.depth});
         append(mesh, sill);
@@ -134,14 +135,6 @@ Mesh barrelVault(float radius, float back, float front, int segments) {
     });
     scaleUv(mesh, {pi * radius, front - back});
     return mesh;
-}
-
-Mesh baluster(float height, float radius, int columns) {
-    const float h = height, r = radius;
-    const glm::vec2 control[] = {{0.75f * r, h},         {0.75f * r, 0.94f * h}, {0.42f * r, 0.90f * h}, {0.40f * r, 0.72f * h},
-                                 {0.55f * r, 0.62f * h}, {0.50f * r, 0.58f * h}, {r, 0.30f * h},         {0.85f * r, 0.16f * h},
-                                 {0.45f * r, 0.11f * h}, {0.8f * r, 0.07f * h},  {0.8f * r, 0}};
-    return turnedInMetres(smoothCurve(control, 2), columns);
 }
 
 }  // namespace lodestir::generate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Round arches and what carries them: columns, pierced walls, vaults, balusters. Metres, UVs in metres.
+// Round arches and what carries them: columns, pierced walls, vaults. Metres, UVs in metres.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -17,6 +17,7 @@ struct ArchBay {
     float opening;        ///< width of the opening
     float sill = 0;       ///< height its opening begins at
     float spring;         ///< height at which the arch begins; its radius is half the opening
+    bool afloat = false;  ///< nothing below the sill: the wall rests on columns there
     float depth = 0.4f;   ///< thickness; the wall lies half before and half behind z = 0
 };
 Mesh archBay(const ArchBay& bay);
@@ -26,8 +27,5 @@ Mesh archivolt(const ArchBay& bay, float radius);
 
 /// Half a cylinder of `radius` over z from `back` to `front`, seen from below, springing at height 0. UVs in metres.
 Mesh barrelVault(float radius, float back, float front, int segments);
-
-/// A vase-shaped baluster that stands on the origin.
-Mesh baluster(float height, float radius, int columns = 10);
 
 }  // namespace lodestir::generate

@@ -2,7 +2,9 @@
 // Small houses: see cottage.h.
 #include "cottage.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 

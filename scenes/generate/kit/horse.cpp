@@ -3,6 +3,7 @@
 #include "horse.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>

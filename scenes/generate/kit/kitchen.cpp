@@ -90,7 +90,8 @@ Model baseCabinet(const std::string& name, const KitchenPaints& paints, float wi
 
 Model barStool(const std::string& name, const KitchenPaints& paints) {
     Model model{name, {}};
-    const glm::vec2 foot[] = {{0.030f, 0.30f}, {0.031f, 0.14f}, {0.036f, 0.075f}, {0.060f, 0.038f}, {0.120f, 0.020f}, {0.190f, 0.010f}, {0.202f, 0.004f}, {0.200f, 0}};
+    const glm::vec2 foot[] = {{0.030f, 0.30f},  {0.031f, 0.14f},  {0.036f, 0.075f}, {0.060f, 0.038f},
+                              {0.120f, 0.020f}, {0.190f, 0.010f}, {0.202f, 0.004f}, {0.200f, 0}};
     model.add(paints.chrome, lathed(foot, 64));
     model.add(paints.chrome, bar({0, 0.28f, 0}, {0, 0.60f, 0}, 0.024f, 32));
     model.add(paints.chrome, ring(0.165f, 0.010f, 0.27f));
@@ -108,16 +109,22 @@ Model barStool(const std::string& name, const KitchenPaints& paints) {
 Model saucepan(const std::string& name, const KitchenPaints& paints, float radius) {
     Model model{name, {}};
     const float h = radius * 1.15f;
-    const glm::vec2 body[] = {{radius * 0.90f, h}, {radius * 0.94f, h + 0.004f}, {radius * 1.02f, h + 0.002f}, {radius, h - 0.006f}, {radius, h * 0.5f}, {radius, 0.014f},
-                              {radius * 0.96f, 0.002f}, {radius * 0.9f, 0}, {0, 0}};
+    const glm::vec2 body[] = {{radius * 0.90f, h}, {radius * 0.94f, h + 0.004f}, {radius * 1.02f, h + 0.002f}, {radius, h - 0.006f}, {radius, h * 0.5f},
+                              {radius, 0.014f},    {radius * 0.96f, 0.002f},     {radius * 0.9f, 0},            {0, 0}};
     model.add(paints.steel, lathed(body, 64));
-    const glm::vec2 lid[] = {{0, h + radius * 0.30f}, {radius * 0.5f, h + radius * 0.25f}, {radius * 0.88f, h + radius * 0.08f}, {radius * 0.97f, h + 0.006f}, {radius * 0.98f, h + 0.002f},
-                             {radius * 0.9f, h + 0.001f}, {0, h + 0.001f}};
+    const glm::vec2 lid[] = {{0, h + radius * 0.30f},      {radius * 0.5f, h + radius * 0.25f}, {radius * 0.88f, h + radius * 0.08f},
+                             {radius * 0.97f, h + 0.006f}, {radius * 0.98f, h + 0.002f},        {radius * 0.9f, h + 0.001f},
+                             {0, h + 0.001f}};
     model.add(paints.chrome, lathed(lid, 64));
     const float y = h + radius * 0.30f;
-    const Station knob[] = {{{0, y - 0.004f, 0}, 0.008f}, {{0, y + 0.012f, 0}, 0.008f}, {{0, y + 0.018f, 0}, 0.020f}, {{0, y + 0.024f, 0}, 0.022f}, {{0, y + 0.029f, 0}, 0.018f}};
+    const Station knob[] = {{{0, y - 0.004f, 0}, 0.008f},
+                            {{0, y + 0.012f, 0}, 0.008f},
+                            {{0, y + 0.018f, 0}, 0.020f},
+                            {{0, y + 0.024f, 0}, 0.022f},
+                            {{0, y + 0.029f, 0}, 0.018f}};
     model.add(paints.black, tube(knob, 28));
-    for (float side : {-1.0f, 1.0f}) model.add(paints.chrome, grip({side * radius, h * 0.72f, -0.04f}, {side * radius, h * 0.72f, 0.04f}, {side * 0.03f, 0.004f, 0}, 0.005f));
+    for (float side : {-1.0f, 1.0f})
+        model.add(paints.chrome, grip({side * radius, h * 0.72f, -0.04f}, {side * radius, h * 0.72f, 0.04f}, {side * 0.03f, 0.004f, 0}, 0.005f));
     return model;
 }
 

@@ -2,7 +2,6 @@
 // Small lamps by the hundred: bulbs, rows of them, street lamps. Every triangle of what glows is a light, so bulbs have few.
 #pragma once
 
-#include <span>
 #include <string>
 
 #include <glm/glm.hpp>

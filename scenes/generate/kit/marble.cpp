@@ -29,7 +29,6 @@ Surface marbleAt(const Marble& marble, const Noise& noise, const glm::vec3& p) {
 
 Marble carrara() { return {{0.74f, 0.71f, 0.66f}, {0.27f, 0.26f, 0.26f}}; }
 Marble verde() { return {{0.035f, 0.085f, 0.062f}, {0.35f, 0.42f, 0.34f}}; }
-Marble porphyry() { return {{0.165f, 0.040f, 0.036f}, {0.45f, 0.30f, 0.25f}}; }
 
 Textures paintMarble(const Marble& marble, uint32_t seed, int width) {
     const Noise noise{seed, {4, 4, 0}};

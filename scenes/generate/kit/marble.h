@@ -17,7 +17,6 @@ struct Marble {
 };
 Marble carrara();
 Marble verde();
-Marble porphyry();
 
 /// One slab; repeats after slabSize metres.
 Textures paintMarble(const Marble& marble, uint32_t seed, int width);

@@ -2,6 +2,7 @@
 // Trees and flowers: see tree.h.
 #include "tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 

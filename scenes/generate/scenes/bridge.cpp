@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A bridge of two towers over a river after sunset, seen from a quay. A thousand lamps and windows light it; from any point most are far or hidden.
-#include <array>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "kit/gothic_tower.h"
 #include "kit/lamps.h"
@@ -15,7 +13,6 @@
 #include "kit/random.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
-#include "kit/spline.h"
 #include "kit/still_life.h"
 #include "kit/truss.h"
 #include "kit/water.h"
@@ -239,7 +236,7 @@ void addQuay(Glb& glb, const Paints& paint) {
         const float bow = glm::smoothstep(3.0f, 12.0f, p.z);
         return glm::vec3(p.x * (1 - 0.92f * bow * bow) * (p.y < 0 ? 0.8f : 1.0f), p.y + 0.9f * bow * bow, p.z);
     });
-    boat.add(paint.iron, placed(hull, {0, 0.7f, 0}));
+    boat.add(paint.blue, placed(hull, {0, 0.7f, 0}));
     boat.add(paint.white, placed(roundedBox({3.8f, 1.9f, 13}, 0.2f, 2), {0, 2.8f, -2.5f}));
     boat.add(paint.white, placed(roundedBox({4.2f, 0.18f, 14}, 0.08f, 2), {0, 3.85f, -2.5f}));
     for (float side : {-1.0f, 1.0f})

@@ -16,7 +16,6 @@
 #include "kit/random.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
-#include "kit/spline.h"
 #include "kit/wood.h"
 
 namespace lodestir::generate {
@@ -27,7 +26,7 @@ constexpr float tau = 2 * std::numbers::pi_v<float>;
 constexpr int gores = 16;                    ///< of the canopy; boards and ribs follow it
 constexpr float rim = 4.7f, eaves = 3.55f;   ///< radius and height of the canopy's edge, metres
 constexpr float deck = 0.52f, drum = 1.15f;  ///< height of the platform, radius of the middle
-constexpr float secondsPerTurn = 8;
+constexpr int loop = 240;                    ///< pieces of all animations, so that they repeat together: ten seconds, a turn of the carousel
 
 /// A point of a circle around +y; angle 0 is +z, and grows towards +x.
 glm::vec3 around(float radius, float height, float angle) { return {radius * std::sin(angle), height, radius * std::cos(angle)}; }
@@ -203,12 +202,11 @@ void addHorses(Glb& glb, const Paints& paint) {
         for (int i = 0; i < ring.count; ++i, ++number) {
             const float start = 360.0f * (float(i) + (ring.count == 8 ? 0.3f : 0.0f)) / float(ring.count), phase = 0.37f * float(i * 3 % 8);
             const auto turn = [&](float t) { return asVector(turnY(start + 360 * t)); };
-            constexpr int pieces = int(secondsPerTurn * 24);
             const int rider =
                 glb.addNode("horse_" + std::to_string(number), meshes[size_t((i * 3 + (ring.count == 8 ? 1 : 0)) % 4)], {.rotation = turnY(start)});
-            animate(glb, rider, Motion::rotation, pieces, turn);
-            animate(glb, rider, Motion::translation, pieces, [&](float t) { return glm::vec4(0, 0.22f * std::sin(tau * (3 * t + phase)), 0, 0); });
-            animate(glb, glb.addNode("pole_" + std::to_string(number), poleMesh, {.rotation = turnY(start)}), Motion::rotation, pieces, turn);
+            animate(glb, rider, Motion::rotation, loop, turn);
+            animate(glb, rider, Motion::translation, loop, [&](float t) { return glm::vec4(0, 0.22f * std::sin(tau * (3 * t + phase)), 0, 0); });
+            animate(glb, glb.addNode("pole_" + std::to_string(number), poleMesh, {.rotation = turnY(start)}), Motion::rotation, loop, turn);
         }
     }
 }
@@ -230,11 +228,10 @@ void addWheel(Glb& glb, const Paints& paint) {
         for (int k = 0; k < 6; ++k) lit.add(i % 2 ? paint.amber : paint.rose, bulb(at(1.2f + 0.9f * float(k), angle, 0.66f), 0.08f));
         for (int k = 0; k < 4; ++k) lit.add(k % 2 ? paint.warm : paint.mint, bulb(at(radius, angle + tau / spokes * (float(k) + 0.5f) / 4, 0.66f), 0.085f));
     }
-    constexpr int pieces = 240;
-    const auto turn = [&](float t) { return asVector(glm::angleAxis(tau * t / spokes * 5, glm::vec3(0, 0, 1))); };
+    const auto turn = [&](float t) { return asVector(glm::angleAxis(tau * t / spokes * 4, glm::vec3(0, 0, 1))); };
     const glm::quat tip = turnY(22);
     for (Model* part : {&frame, &lit})
-        animate(glb, glb.addNode(*part, {.translation = hub, .rotation = tip}), Motion::rotation, pieces, [&](float t) {
+        animate(glb, glb.addNode(*part, {.translation = hub, .rotation = tip}), Motion::rotation, loop, [&](float t) {
             const glm::vec4 q = turn(t);
             return asVector(tip * glm::quat(q.w, q.x, q.y, q.z));
         });
@@ -245,9 +242,9 @@ void addWheel(Glb& glb, const Paints& paint) {
     for (float x : {-0.4f, 0.4f}) car.add(paint.iron, bar({x, -0.8f, 0}, {x * 0.6f, 0, 0}, 0.03f, 5));
     const int gondola = glb.addMesh(car);
     for (int i = 0; i < spokes; ++i) {
-        const auto place = [&](float t) { return hub + tip * at(radius, tau * (float(i) / spokes + t / spokes * 5), 0); };
+        const auto place = [&](float t) { return hub + tip * at(radius, tau * (float(i) / spokes + t / spokes * 4), 0); };
         const int node = glb.addNode("gondola_" + std::to_string(i), gondola, {.translation = place(0), .rotation = tip});
-        animate(glb, node, Motion::translation, pieces, [&](float t) { return glm::vec4(place(t), 0); });
+        animate(glb, node, Motion::translation, loop, [&](float t) { return glm::vec4(place(t), 0); });
     }
     Model stand{"wheel_stand", {}};
     for (float side : {-1.0f, 1.0f})
@@ -299,7 +296,7 @@ Glb makeCarousel() {
     const Paints paint = addPaints(glb);
     std::vector<int> turning;
     addTurning(glb, paint, turning);
-    for (int node : turning) animate(glb, node, Motion::rotation, int(secondsPerTurn * 24), [](float t) { return asVector(turnY(360 * t)); });
+    for (int node : turning) animate(glb, node, Motion::rotation, loop, [](float t) { return asVector(turnY(360 * t)); });
     addHorses(glb, paint);
     addWheel(glb, paint);
     addSquare(glb, paint);

@@ -5,14 +5,11 @@
 #include <string>
 #include <vector>
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include "kit/arcade.h"
 #include "kit/cloth.h"
 #include "kit/foliage.h"
 #include "kit/marble.h"
 #include "kit/masonry.h"
-#include "kit/metals.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
 #include "kit/tableware.h"
@@ -35,9 +32,9 @@ struct Stones {
 
 Stones addStones(Glb& glb) {
     Stones s{};
-    s.limestone = glb.addMaterial(glb.dressed({.name = "limestone"}, paintAshlar({0.70f, 0.62f, 0.49f}, 3, 768)));
+    s.limestone = glb.addMaterial(glb.dressed({.name = "limestone"}, paintAshlar({0.70f, 0.62f, 0.49f}, 3, 640)));
     s.column = glb.addMaterial(glb.dressed({.name = "column"}, paintMarble({{0.58f, 0.38f, 0.28f}, {0.76f, 0.66f, 0.56f}, 0.24f}, 8, 512)));
-    s.floor = glb.addMaterial(glb.dressed({.name = "marble_floor"}, paintMarbleFloor(carrara(), {{0.075f, 0.070f, 0.072f}, {0.34f, 0.31f, 0.28f}}, 5, 1024)));
+    s.floor = glb.addMaterial(glb.dressed({.name = "marble_floor"}, paintMarbleFloor(carrara(), {{0.075f, 0.070f, 0.072f}, {0.34f, 0.31f, 0.28f}}, 5, 896)));
     s.rim = glb.addMaterial(glb.dressed({.name = "rim"}, paintMarble(verde(), 9, 512)));
     s.vault = glb.addMaterial(glb.dressed({.name = "vault"}, paintPlaster({0.80f, 0.75f, 0.66f}, 4, 512)));
     // Still water over dark tiles: only what its surface reflects is to be seen.
@@ -78,19 +75,10 @@ void addShell(Glb& glb, const Stones& stone) {
     shell.add(stone.limestone, flat({aisle, 9.6f, front}, {-2 * aisle, 0, 0}, {0, -9.6f, 0}, ashlarSize));
     glb.addNode(shell);
 
-    const ArchBay bay{.width = bayLength, .height = cornice, .opening = bayLength - 1.0f, .sill = spring - 0.02f, .spring = spring, .depth = 0.62f};
-    Mesh wall = archBay(bay);
-    // What stands below the springing is the column's: the bay keeps its upper part only.
-    Mesh arch;
-    for (size_t i = 0; i < wall.indices.size(); i += 3) {
-        float top = 0;
-        for (size_t k = 0; k < 3; ++k) top = std::max(top, wall.vertices[wall.indices[i + k]].position.y);
-        if (top < spring - 0.01f) continue;
-        for (size_t k = 0; k < 3; ++k) arch.indices.push_back(arch.add(wall.vertices[wall.indices[i + k]]));
-    }
-    computeNormals(arch, 25);
+    const ArchBay bay{
+        .width = bayLength, .height = cornice, .opening = bayLength - 1.0f, .sill = spring - 0.02f, .spring = spring, .afloat = true, .depth = 0.62f};
     Model span{"arch", {}};
-    span.add(stone.limestone, inTiles(arch, ashlarSize));
+    span.add(stone.limestone, inTiles(archBay(bay), ashlarSize));
     span.add(stone.column, inTiles(archivolt(bay, 0.055f), slabSize));
     const int archMesh = glb.addMesh(span);
     Model shaft{"column", {}};

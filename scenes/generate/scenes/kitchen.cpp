@@ -127,7 +127,8 @@ void addWindow(Glb& glb, const Paints& p) {
     Model blind{"blind", {}};
     const float x = (windowLow.x + windowHigh.x) / 2, width = windowHigh.x - windowLow.x - 0.03f, hang = back - 0.035f;
     constexpr float pitch = 0.036f, tilt = 64;
-    const Mesh slat = bent(roundedBox({width, 0.0016f, 0.040f}, 0.0008f, 1, Axis::x, 4), [](const glm::vec3& q) { return q + glm::vec3(0, 0.004f - 10 * q.z * q.z, 0); });
+    const Mesh slat = bent(roundedBox({width, 0.0016f, 0.040f}, 0.0008f, 1, Axis::x, 4),
+                           [](const glm::vec3& q) { return q + glm::vec3(0, 0.004f - 10 * q.z * q.z, 0); });
     const float lowest = windowLow.y + 0.24f;
     for (float y = windowHigh.y - 0.07f; y > lowest; y -= pitch)
         blind.add(p.kit.trim, placed(slat, glm::rotate(glm::translate(glm::mat4(1), {x, y, hang}), glm::radians(tilt), {1, 0, 0})));
@@ -145,8 +146,8 @@ void addCabinets(Glb& glb, const Paints& p) {
         Fronts fronts;
     };
     float x = left + 0.62f;
-    for (const Piece& piece : {Piece{"cabinet_0", 0.85f, Fronts::doors}, Piece{"cabinet_sink", 0.95f, Fronts::doors}, Piece{"cabinet_1", 0.60f, Fronts::drawers},
-                               Piece{"cabinet_2", right - left - 0.62f - 2.40f, Fronts::doors}}) {
+    for (const Piece& piece : {Piece{"cabinet_0", 0.85f, Fronts::doors}, Piece{"cabinet_sink", 0.95f, Fronts::doors},
+                               Piece{"cabinet_1", 0.60f, Fronts::drawers}, Piece{"cabinet_2", right - left - 0.62f - 2.40f, Fronts::doors}}) {
         glb.addNode(baseCabinet(piece.name, p.kitchen, piece.width, piece.fronts), {.translation = {x, 0, back}});
         x += piece.width;
     }
@@ -192,7 +193,8 @@ void addIsland(Glb& glb, const Paints& p) {
     glb.addNode(island);
     const int stool = glb.addMesh(barStool("stool", p.kitchen));
     for (int i = 0; i < 3; ++i)
-        glb.addNode("stool_" + std::to_string(i), stool, {.translation = {x - 0.34f - 0.06f * float(i % 2), 0, z0 + 0.35f + 0.60f * float(i)}, .rotation = turnY(40.0f * float(i))});
+        glb.addNode("stool_" + std::to_string(i), stool,
+                    {.translation = {x - 0.34f - 0.06f * float(i % 2), 0, z0 + 0.35f + 0.60f * float(i)}, .rotation = turnY(40.0f * float(i))});
     const int lamp = glb.addMesh(pendantLamp(p.kit, 0.85f));
     for (float z : {z0 + 0.45f, z0 + 1.45f}) glb.addNode("lamp_" + std::to_string(z > 0), lamp, {.translation = {x + width / 2, height - 0.001f, z}});
     const glm::vec3 top(x + width / 2, counterTop, z0 + 1.25f);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// An opera house seen from its stage: four tiers of boxes in a horseshoe, six hundred small lamps, gilded friezes, rows of velvet seats.
+// An opera house seen from its stage: four tiers of boxes in a horseshoe, over four hundred small lamps, gilded friezes, rows of velvet seats.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A spaceship of solid glass in its hangar above a planet: bubbles and balls of glass within glass, and a star at their middle whose light leaves only
 // through them.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 

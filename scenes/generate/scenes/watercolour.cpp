@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A village on a hill as if in watercolour: nothing shines, everything is textured, and the camera rises from the lane over the roofs.
+#include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "kit/cottage.h"
 #include "kit/grass.h"
@@ -12,7 +10,6 @@
 #include "kit/random.h"
 #include "kit/scene.h"
 #include "kit/shapes.h"
-#include "kit/spline.h"
 #include "kit/tree.h"
 #include "kit/watercolour.h"
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Generated scenes hold what they are judged by: glass is closed, lamps are as many as is said and move where that is the point. Pictures look right without.
+#include "source_folder.h"
+
+#include <framework/scene/scene.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace lodestir::test {
+namespace {
+
+/// A tenth of a millimetre: vertices of one place that were computed along different roads.
+using Place = std::array<long, 3>;
+Place placeOf(const glm::vec3& p) { return {std::lround(p.x * 1e4f), std::lround(p.y * 1e4f), std::lround(p.z * 1e4f)}; }
+
+/// Bodies of a level that glow as lamps do: sets of triangles that hang together. For each, one of its points.
+std::vector<glm::vec3> lampsOf(const Scene& scene, const MeshLevel& level) {
+    std::map<Place, std::size_t> ids;
+    std::vector<std::size_t> parents;
+    std::vector<glm::vec3> points;
+    const auto root = [&](std::size_t i) {
+        while (parents[i] != i) i = parents[i] = parents[parents[i]];
+        return i;
+    };
+    for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+        if (!scene.materials[level.materials[t]].isLight()) continue;
+        std::array<std::size_t, 3> corners{};
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec3 p = level.positions[level.triangles[t][k]];
+            const auto [entry, fresh] = ids.try_emplace(placeOf(p), parents.size());
+            if (fresh) parents.push_back(parents.size()), points.push_back(p);
+            corners[std::size_t(k)] = entry->second;
+        }
+        parents[root(corners[1])] = root(corners[0]);
+        parents[root(corners[2])] = root(corners[0]);
+    }
+    std::vector<glm::vec3> lamps;
+    for (std::size_t i = 0; i < parents.size(); ++i)
+        if (root(i) == i) lamps.push_back(points[i]);
+    return lamps;
+}
+
+/// How many lamps a scene has, and how many of them have gone elsewhere by a later frame.
+struct Lamps {
+    int all = 0, moved = 0;
+};
+
+Lamps lampsOf(const Scene& scene, float frame) {
+    std::vector<std::vector<glm::vec3>> ofMesh;
+    for (const Mesh& mesh : scene.meshes) ofMesh.push_back(lampsOf(scene, mesh.levels.front()));
+    const auto before = scene.nodeMatrices(0), after = scene.nodeMatrices(frame);
+    Lamps lamps;
+    for (const Instance& instance : scene.instances)
+        for (const glm::vec3& lamp : ofMesh[instance.mesh]) {
+            const auto at = [&](const auto& nodes) { return glm::vec3(scene.instanceMatrix(instance, nodes) * glm::vec4(lamp, 1)); };
+            ++lamps.all;
+            if (glm::distance(at(before), at(after)) > 0.1f) ++lamps.moved;
+        }
+    return lamps;
+}
+
+Scene loaded(const std::string& name) { return loadScene(sourceFolder / "scenes" / (name + ".json")); }
+
+// A path that finds a hole in a solid goes on in the wrong medium. Every edge of a closed surface is walked both ways equally often.
+TEST(GeneratedScenes, SolidGlassIsClosed) {
+    for (const auto& entry : std::filesystem::directory_iterator(sourceFolder / "scenes")) {
+        if (entry.path().extension() != ".json") continue;
+        const Scene scene = loadScene(entry.path());
+        for (const Mesh& mesh : scene.meshes) {
+            const MeshLevel& level = mesh.levels.front();
+            std::map<std::pair<Place, Place>, int> edges;
+            for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+                if (!scene.materials[level.materials[t]].solid) continue;
+                for (int k = 0; k < 3; ++k) {
+                    const Place from = placeOf(level.positions[level.triangles[t][k]]), to = placeOf(level.positions[level.triangles[t][(k + 1) % 3]]);
+                    if (from < to) ++edges[{from, to}];
+                    if (to < from) --edges[{to, from}];
+                }
+            }
+            const auto open = std::ranges::count_if(edges, [](const auto& edge) { return edge.second != 0; });
+            EXPECT_EQ(open, 0) << entry.path().filename() << ": mesh '" << mesh.name << "' has open edges in its solid glass";
+        }
+    }
+}
+
+TEST(GeneratedScenes, LampsOfTheCarouselMove) {
+    const Lamps lamps = lampsOf(loaded("carousel"), 12);
+    EXPECT_GE(lamps.moved, 560);
+    EXPECT_LT(lamps.moved, lamps.all);  // street lamps stand
+}
+
+TEST(GeneratedScenes, HaveAsManyLampsAsTheySay) {
+    EXPECT_GE(lampsOf(loaded("opera_hall"), 0).all, 400);
+    EXPECT_GE(lampsOf(loaded("bridge"), 0).all, 1000);
+}
+
+// Whatever is found there came from outside: the window is the only lamp of the hall.
+TEST(GeneratedScenes, TheHallHasNoLampOfItsOwn) {
+    const Scene scene = loaded("far_window");
+    EXPECT_EQ(lampsOf(scene, 0).all, 0);
+    EXPECT_TRUE(scene.lights.empty());
+}
+
+// Convergence under motion is judged without gloss, which would move of its own.
+TEST(GeneratedScenes, TheWatercolourIsMattAndItsCameraRises) {
+    const Scene scene = loaded("watercolour");
+    for (const Material& material : scene.materials) {
+        EXPECT_EQ(material.ior, 1) << material.name;
+        EXPECT_EQ(material.metallic, 0) << material.name;
+    }
+    for (float frame = 1; frame <= 60; ++frame) EXPECT_GT(scene.cameraAt(frame).position.y, scene.cameraAt(frame - 1).position.y);
+}
+
+}  // namespace
+}  // namespace lodestir::test
