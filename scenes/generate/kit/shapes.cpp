@@ -158,8 +158,10 @@ Mesh tube(std::span<const Station> stations, int sides, float creaseDegrees) {
         // The caps share a position with their neighbours: look past them for a direction.
         const glm::vec3 from = rings[i <= 1 ? 1 : i - 1].position, to = rings[i >= last - 1 ? last - 1 : i + 1].position;
         const glm::vec3 along = glm::normalize(to == from ? rings[last - 1].position - rings[1].position : to - from);
-        if (i == 0) side = glm::cross(std::abs(along.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0), along);
-        side = glm::normalize(side - along * glm::dot(side, along));
+        side -= along * glm::dot(side, along);
+        // The first, and one that a bend turns into the tube's own direction.
+        if (glm::dot(side, side) < 1e-8f) side = glm::cross(std::abs(along.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0), along);
+        side = glm::normalize(side);
         const glm::vec3 front = glm::cross(along, side);
         if (i > 0) travelled += glm::distance(rings[i - 1].position, rings[i].position) + std::abs(rings[i].radius - rings[i - 1].radius);
         for (int x = 0; x <= sides; ++x) {
