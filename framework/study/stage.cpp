@@ -119,19 +119,19 @@ void Stage::check() {
             }
         }
     };
-    std::set<std::string> referenceFilms;
+    std::set<PixelFilter> referenceFilters;
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         attempt([&] {
             const StagedGraph reference = build(study_.reference, {}, scene, 0);
             samplesParameter(reference.graph, study_.reference.where);
-            referenceFilms = filmsOf(reference.graph, reference.port);
+            referenceFilters = filtersOf(reference.graph, reference.port);
         });
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         for (const Technique& technique : study_.techniques)
             for (const auto& knobs : combinations(technique))
                 attempt([&] {
                     const StagedGraph staged = build(technique.graph, knobs, scene, study_.seeds.front());
-                    expectSameFilter(study_, technique, filmsOf(staged.graph, staged.port), referenceFilms);
+                    expectSameFilter(study_, technique, filtersOf(staged.graph, staged.port), referenceFilters);
                 });
     problems.raise();
 }

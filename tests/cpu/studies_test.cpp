@@ -67,7 +67,7 @@ TEST(Table1, LeadsFrom2022ToTheEnhancedGraphByOneTechniqueARow) {
     };
     expectSame(table.graphs.front(), "restir_pt_2022.json", {});
     expectSame(table.graphs.back(), "restir_pt_enhanced.json",
-               {.set = {{"hits.film", Json("centre")}, {"spatial.compaction", Json(true)}}, .variant = "duplication map"});
+               {.set = {{"hits.film", Json("centre")}, {"hits.lens", Json(false)}, {"spatial.compaction", Json(true)}}, .variant = "duplication map"});
     for (std::size_t row = 1; row < table.graphs.size(); ++row)
         EXPECT_NE(passesOf(table.graphs[row]), passesOf(table.graphs[row - 1])) << "row " << row << " shows nothing new";
 }
@@ -109,11 +109,12 @@ protected:
         more["graph"] = file.string();
         return more;
     }
-    /// Of a study of one technique against path tracing with rays of that film.
-    std::string complaint(const OrderedJson& judged, const char* referenceFilm, StudyKind kind = StudyKind::error) {
+    /// Of a study of one technique against path tracing with rays of that film, through all of the lens or, of centres, through the lens' centre.
+    std::string complaint(const OrderedJson& judged, const std::string& referenceFilm, StudyKind kind = StudyKind::error) {
+        const OrderedJson rays{{"trace.film", referenceFilm}, {"trace.lens", referenceFilm != "centre"}};
         OrderedJson study{{"format", 1},
                           {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
-                          {"reference", technique(graph("path_tracer.json"), {{"set", {{"trace.film", referenceFilm}}}, {"spp", 64}})},
+                          {"reference", technique(graph("path_tracer.json"), {{"set", rays}, {"spp", 64}})},
                           {"techniques", {{"judged", judged}}}};
         if (kind == StudyKind::ensemble)
             study.update(OrderedJson{{"kind", "ensemble"}, {"runs", 16}});
@@ -129,14 +130,14 @@ TEST_F(FilterTest, IsThatOfTheReference) {
     const OrderedJson ownPlaces{{"hits.film", "centre"}, {"hits.lens", false}, {"initial.camera", "path"}};
     const std::vector<std::pair<OrderedJson, std::string>> techniques{
         {technique(graph("path_tracer.json")), "random"},
-        {technique(graph("path_tracer.json"), {{"set", {{"trace.film", "centre"}}}}), "centre"},
+        {technique(graph("path_tracer.json"), {{"set", {{"trace.film", "centre"}, {"trace.lens", false}}}}), "centre"},
         {technique(graph("restir_pt.json")), "random"},
         {technique(graph("restir_pt.json"), {{"variant", "no reuse"}}), "random"},
         {technique(graph("restir_pt.json"), {{"variant", "paired"}, {"port", "spatial.color"}}), "random"},
         {technique(graph("restir_pt_2022.json")), "centre"},
         {technique(graph("restir_pt_2022.json"), {{"port", "direct.color"}}), "centre"},
         {technique(graph("restir_lod.json")), "random"},
-        {technique(graph("restir_pt_enhanced.json"), {{"set", {{"hits.film", "centre"}}}}), "centre"},
+        {technique(graph("restir_pt_enhanced.json"), {{"set", {{"hits.film", "centre"}, {"hits.lens", false}}}}), "centre"},
         {technique(graph("restir_pt_enhanced.json"), {{"variant", "duplication map"}, {"set", ownPlaces}}), "random"}};
     for (const auto& [judged, film] : techniques)
         for (const char* reference : {"random", "centre"}) {
@@ -155,11 +156,21 @@ TEST_F(FilterTest, OneFrameOfOnePlaceIsNoBoxFilter) {
     }
 }
 
+// One point of the lens a pixel is no mean over the lens, however many frames of history stand behind it.
+TEST_F(FilterTest, OneFrameOfOneLensPointIsNoLens) {
+    const OrderedJson centres = technique(graph("restir_pt_enhanced.json"), {{"set", {{"hits.film", "centre"}}}});
+    const std::string said = complaint(centres, "centre");
+    EXPECT_NE(said.find("the centres of pixels and one point of the lens a frame, the reference through the centres of pixels and the lens' centre"), said.npos)
+        << said;
+    EXPECT_NE(complaint(technique(graph("path_tracer.json"), {{"set", {{"trace.lens", false}}}}), "random"), "");
+    EXPECT_EQ(complaint(technique(graph("restir_pt_enhanced.json")), "random", StudyKind::ensemble), "") << "its mean is";
+}
+
 TEST_F(FilterTest, OneThatDiffersIsToldAndMayBeMeant) {
     OrderedJson judged = technique(graph("restir_pt_2022.json"));
     const std::string said = complaint(judged, "random");
     EXPECT_TRUE(said.starts_with((folder / "study.json:").string())) << said;
-    EXPECT_NE(said.find("technique \"judged\" sees through the centres of pixels, the reference through random places of pixels; give both the same \"film\""),
+    EXPECT_NE(said.find("technique \"judged\" sees through the centres of pixels and the lens' centre, the reference through random places of pixels and all of the lens; give"),
               said.npos)
         << said;
     judged["otherFilter"] = true;
