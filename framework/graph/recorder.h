@@ -57,7 +57,8 @@ public:
         if (recorded_) throw Error("port \"" + std::string(port.name) + "\" is reserved after something was recorded");
         auto before = s_.memories_->reserve(s_.device_, std::size_t(s_.plan_.resourceOf(node_, numberOf(port))), elements * port.type.size,
                                             s_.graph_.nameOf({node_, numberOf(port), false}));
-        if (before) work_.staging.push_back(std::move(*before));
+        if (!before) return;
+        work_.staging.push_back(std::move(*before));
         s_.fillBlock(std::size_t(node_));
     }
     using Frame::reserve;

@@ -19,7 +19,8 @@ std::string choiceOf(const Pass& pass, std::string_view name) {
 
 bool isOn(const Pass& pass, std::string_view name) {
     const auto found = std::ranges::find(pass.parameters, name, &Parameter::name);
-    return found != pass.parameters.end() && std::get<bool>((*found)->value);
+    const bool* value = found == pass.parameters.end() ? nullptr : std::get_if<bool>(&(*found)->value);
+    return value && *value;
 }
 
 bool isHits(const Port& port) { return port.type.kind == PortType::Kind::buffer && port.type.name == "PrimaryHit"; }

@@ -27,25 +27,32 @@ StudyGraph graph(const char* file, const char* variant, std::vector<Setting> set
     return {.graph = sourceFolder / "graphs" / file, .variant = variant, .set = std::move(set), .port = {}, .where = {}};
 }
 
+/// Judges a technique on a scene by `runs` fresh starts and path tracing.
+void expectUnbiased(const std::string& scene, int runs, const StudyGraph& technique, const std::string& name) {
+    EnsembleJudge judge({.scene = sourceFolder / "scenes" / (scene + ".json"),
+                         .size = {32, 18},
+                         .warmup = 3,
+                         .frame = 3,
+                         .runs = runs,
+                         .reference = graph("path_tracer.json", "no accumulation", {}),
+                         .referenceSamples = 2048});
+    const EnsembleResult reuse = judge.judge(technique);
+    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
+    EXPECT_LE(reuse.halfWidth, 0.01);
+    std::printf("%s: %+.2f %% +- %.2f %%\n", name.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
+}
+
 class Unbiased : public testing::TestWithParam<Case> {};
 
 TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
     const Case& c = GetParam();
-    EnsembleJudge judge({.scene = sourceFolder / "scenes" / (c.scene + ".json"),
-                         .size = {32, 18},
-                         .warmup = 3,
-                         .frame = 3,
-                         .runs = c.runs,
-                         .reference = graph("path_tracer.json", "no accumulation", {}),
-                         .referenceSamples = 2048});
-    const EnsembleResult reuse = judge.judge({.graph = sourceFolder / "graphs" / c.graph,
-                                              .variant = c.variant,
-                                              .set = {{"initial.candidates", Json(c.candidates)}, {c.radius(), Json(5)}},
-                                              .port = {},
-                                              .where = {}});
-    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
-    EXPECT_LE(reuse.halfWidth, 0.01);
-    std::printf("%s: %+.2f %% +- %.2f %%\n", c.scene.c_str(), 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
+    expectUnbiased(c.scene, c.runs,
+                   {.graph = sourceFolder / "graphs" / c.graph,
+                    .variant = c.variant,
+                    .set = {{"initial.candidates", Json(c.candidates)}, {c.radius(), Json(5)}},
+                    .port = {},
+                    .where = {}},
+                   c.scene);
 }
 
 // Light points behind panes that move: what is reused has no part in what a pane takes, which the pixel's own shadow ray finds.
@@ -105,17 +112,7 @@ TEST_P(UnbiasedTogether, ReuseHasTheMeanOfPathTracing) {
     ASSERT_NE(row, study.techniques.end());
     StudyGraph judged = row->graph;
     judged.set.push_back({c.radius, Json(5)});
-    EnsembleJudge judge({.scene = sourceFolder / "scenes" / (std::string(c.scene) + ".json"),
-                         .size = {32, 18},
-                         .warmup = 3,
-                         .frame = 3,
-                         .runs = c.runs,
-                         .reference = graph("path_tracer.json", "no accumulation", {}),
-                         .referenceSamples = 2048});
-    const EnsembleResult reuse = judge.judge(judged);
-    EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
-    EXPECT_LE(reuse.halfWidth, 0.01);
-    std::printf("%s: %+.2f %% +- %.2f %%\n", c.row, 100 * (reuse.energy[0] / reuse.referenceEnergy[0] - 1), 100 * reuse.halfWidth);
+    expectUnbiased(c.scene, c.runs, judged, c.row);
 }
 
 INSTANTIATE_TEST_SUITE_P(Combinations, UnbiasedTogether,

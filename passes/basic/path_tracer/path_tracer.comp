@@ -43,8 +43,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.direct = vec3(0);
     p.ends = false;
     vec2 offset = filmPlace(p.seed);
-    vec2 lens = params.lens ? random2(p.seed, 0, RANDOM_LENS) : vec2(0.5);
-    p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), lens);
+    p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), lensPlace(p.seed));
     p.onward = p.ray;
     PROBE_OPEN(paths);
     PROBE(seed, p.seed);

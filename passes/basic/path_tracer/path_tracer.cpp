@@ -15,6 +15,5 @@ struct PathTracer final : Pass {
     Param<bool>    roulette{this, "roulette", true, "Russian roulette on the throughput"};
     Param<int>     rouletteStart{this, "rouletteStart", 3, {1, 64}, "first scattering that roulette may end a path after"};
     FilmPlace      place{this};
-    Param<bool>    lens{this, "lens", true, "rays from random points of the camera's aperture instead of its centre"};
 };
 LODESTIR_PASS(PathTracer, "path_tracer.comp", "Path tracing with next-event estimation, multiple importance sampling and Russian roulette.")

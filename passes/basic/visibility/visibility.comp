@@ -25,7 +25,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
     p.place = filmPlace(seed);
     p.film = filmOf(pixel, p.place, frameSize());
-    p.lens = params.lens ? random2(seed, 0, RANDOM_LENS) : vec2(0.5);  // the middle of the square is the middle of the disk
+    p.lens = lensPlace(seed);
     p.ray = cameraRay(w, p.film, p.lens);
     return true;
 }

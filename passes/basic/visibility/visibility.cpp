@@ -16,6 +16,5 @@ struct Visibility final : Pass {
     Out<Image>              normal{this, "normal", "shading normal, world space; zero where nothing was hit", Format::rgba16f, Need::optional};
     Out<Image>              albedo{this, "albedo", "base colour, linear; zero where nothing was hit", Format::rgba16f, Need::optional};
     FilmPlace               place{this};
-    Param<bool>             lens{this, "lens", true, "rays from a random point of the camera's aperture instead of its centre"};
 };
 LODESTIR_PASS(Visibility, "visibility.comp", "Finds the first hit of one camera ray a pixel: hits, motion, depth, normal, albedo.")
