@@ -24,7 +24,9 @@ Rectangle Panels::pictureArea(glm::uvec2 window) const {
 
 void Panels::mark(const std::string& name) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    widgets_[name] = {low.x, low.y, high.x, high.y};
+    const ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float above = list.GetClipRectMin().y, below = std::max(list.GetClipRectMax().y, above);
+    widgets_[name] = {low.x, std::clamp(low.y, above, below), high.x, std::clamp(high.y, above, below)};
 }
 
 bool Panels::button(const char* name, const char* label, const char* tipText, float width) {

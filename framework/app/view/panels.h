@@ -24,7 +24,8 @@ public:
     const Look& look() const { return look_; }  ///< for the picture of this frame
     TexelLayout layout() const;
     bool takeScreenshotWish() { return std::exchange(screenshot_, false); }
-    /// The boxes of all widgets drawn last, "pass.parameter" or a name such as "pause": left, top, right, bottom.
+    /// What is in view of all widgets drawn last, "pass.parameter" or a name such as "pause": left, top, right, bottom; top = bottom where one is
+    /// scrolled away.
     const std::map<std::string, std::array<float, 4>>& widgets() const { return widgets_; }
     const std::map<std::string, Value>& values() const { return values_; }  ///< of all parameters, as set here
 

@@ -37,6 +37,7 @@ void Panels::drawPasses() {
         ImGui::Dummy({0, 2});
     }
     ImGui::EndChild();
+    mark("passes");
 }
 
 void Panels::drawParameter(const PassInfo& pass, std::size_t index) {
