@@ -5,8 +5,8 @@
 #include "light/light.glsl"
 #include "restir/light_tiles.h"
 
-/// Random bits that choose a light (chooseLight). Numbers that differ by 1 choose from neighbouring strata of the alias table, of which there are as many as
-/// a tile has lights: a tile shares the table out evenly.
+/// Random bits that choose a light (chooseLight). Numbers that differ by 1 choose from neighbouring strata of the lights' distribution, of which
+/// there are as many as a tile has lights: a tile shares them all out evenly.
 uvec3 lightChoice(uint number) {
     const uint stratum = 0x80000000u / (TILE_LIGHTS / 2u);  // 2^32 / TILE_LIGHTS
     uvec3 choice = randomBits3(uvec2(number, 0u), 0u, RANDOM_LIGHT_CHOICE);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The tables that lights are sampled by.
 #include <framework/scene/upload/alias_table.h>
+#include <framework/scene/upload/cumulative_table.h>
 #include <framework/scene/upload/environment_table.h>
 #include <framework/scene/upload/light_list.h>
 #include <framework/scene/upload/mipmaps.h>
@@ -8,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 using namespace lodestir;
@@ -62,6 +64,58 @@ TEST(AliasTable, EqualAndAbsentWeights) {
     for (const std::vector<double>& weights : {std::vector<double>(7, 1.0), std::vector<double>(7, 0.0)})
         for (double p : walked(makeAliasTable(weights))) EXPECT_NEAR(p, 1.0 / 7, 1e-7);
     EXPECT_TRUE(makeAliasTable({}).empty());
+}
+
+/// What a number chooses, as light/light.glsl looks it up.
+std::uint32_t numbered(const std::vector<CumulativeEntry>& table, std::uint32_t number) {
+    const std::size_t part = std::size_t(std::uint64_t(number) * table.size() >> 32);
+    std::uint32_t entry = table[part].start, end = part + 1 < table.size() ? table[part + 1].start : std::uint32_t(table.size() - 1);
+    while (entry < end) {
+        const std::uint32_t middle = (entry + end) / 2;
+        if (number > table[middle].last) entry = middle + 1;
+        else end = middle;
+    }
+    return entry;
+}
+
+// Each entry has as many numbers as its density says, and none without weight, however small or many.
+TEST(CumulativeTable, GivesEachEntryItsNumbers) {
+    std::vector<double> steep(300);
+    for (std::size_t i = 0; i < steep.size(); ++i) steep[i] = i % 7 == 3 ? 0 : std::pow(1.4, double(i % 150));
+    for (const std::vector<double>& weights :
+         {std::vector<double>{5, 0, 1, 0.25, 8, 0, 0.001, 3}, std::vector<double>{0, 0, 2, 1e-30, 0}, std::vector<double>{7},
+          std::vector<double>(1000, 1.0), std::vector<double>(5, 0.0), steep}) {
+        const auto table = makeCumulativeTable(weights);
+        const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+        std::uint64_t next = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            const double share = total > 0 ? weights[i] / total : 1.0 / double(weights.size());
+            EXPECT_NEAR(table[i].pmf, share, 1e-7 + 1e-9 * double(weights.size())) << i;
+            ASSERT_EQ(table[i].pmf > 0, share > 0) << i;
+            if (share == 0) continue;
+            const std::uint32_t first = std::uint32_t(next), last = table[i].last;
+            EXPECT_EQ(float((double(last) - double(first) + 1) / 4294967296.0), table[i].pmf) << i;
+            EXPECT_EQ(numbered(table, first), i);
+            EXPECT_EQ(numbered(table, first + (last - first) / 2), i);
+            EXPECT_EQ(numbered(table, last), i);
+            next = std::uint64_t(last) + 1;
+        }
+        EXPECT_EQ(next, 1ull << 32);
+    }
+    EXPECT_TRUE(makeCumulativeTable({}).empty());
+}
+
+// Areas of triangles that turn differ by rounding from frame to frame, and lights that flicker by more: a path's number has to choose the same light
+// nearly always, or what history knows of it is worth nothing.
+TEST(CumulativeTable, NumbersKeepTheirEntryWhereWeightsHardlyChange) {
+    std::vector<double> weights(5000);
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = 1 + 0.5 * std::sin(double(i));
+    std::vector<double> rounded = weights;
+    for (std::size_t i = 0; i < weights.size(); ++i) rounded[i] *= 1 + 1e-7 * std::cos(31.0 * double(i));
+    const auto before = makeCumulativeTable(weights), after = makeCumulativeTable(rounded);
+    int others = 0;
+    for (std::uint32_t k = 0; k < 100000; ++k) others += numbered(before, k * 2654435761u) != numbered(after, k * 2654435761u);
+    EXPECT_LT(others, 100);
 }
 
 std::vector<std::span<const glm::vec3>> positionsOf(const Scene& scene) {

@@ -96,9 +96,9 @@ TEST_F(EnvironmentGrid, TexelsThatAlternate) {
 TEST_F(EnvironmentGrid, FindsPointsThatAreRounded) {
     make(sun);
     plant(folder.path, {{"rounded", "initial_sampling", "light/light.glsl",
-                         "return LightPoint(light, sampleEnvironmentTexel(w, choice.z, u.x), u.yz);",
+                         "return LightPoint(light, sampleEnvironmentTexel(w, choice.y, u.x), u.yz);",
                          "{ EnvironmentPoint p = environmentPoint(w, unpackUnorm2x16(packUnorm2x16(environmentUv(w, EnvironmentPoint(sampleEnvironmentTexel(w, "
-                         "choice.z, u.x), u.yz))))); return LightPoint(light, p.texel, p.place); }"}});
+                         "choice.y, u.x), u.yz))))); return LightPoint(light, p.texel, p.place); }"}});
     ASSERT_FALSE(HasFailure());
     OrderedJson json = OrderedJson::parse(readText(graphs / "restir_pt.json"));
     json["scene"] = "floor.json";

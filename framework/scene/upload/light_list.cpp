@@ -2,7 +2,7 @@
 #include <framework/scene/upload/light_list.h>
 
 #include <framework/image/srgb.h>
-#include <framework/scene/upload/alias_table.h>
+#include <framework/scene/upload/cumulative_table.h>
 #include <framework/scene/axes.h>
 #include <framework/scene/shading_frame.h>
 
@@ -131,11 +131,11 @@ LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters,
     std::vector<double> weights(power.size(), 0.0);
     for (std::size_t i = 0; i < power.size(); ++i)
         if (power[i] > 0) weights[i] = 0.5 * power[i] / total + 0.5 / present * power[i] / kindPower[kindOf[i]];
-    const std::vector<AliasEntry> table = makeAliasTable(weights);
+    const std::vector<CumulativeEntry> table = makeCumulativeTable(weights);
     for (std::size_t i = 0; i < table.size(); ++i) {
         list.lights[i].pmf = table[i].pmf;
-        list.lights[i].aliasProbability = table[i].aliasProbability;
-        list.lights[i].alias = table[i].alias;
+        list.lights[i].last = table[i].last;
+        list.lights[i].start = table[i].start;
     }
     return list;
 }

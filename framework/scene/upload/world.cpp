@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/upload/world.h>
 
-#include <framework/scene/upload/alias_table.h>
 #include <framework/scene/axes.h>
 #include <framework/scene/upload/environment_table.h>
 #include <framework/scene/level_policy.h>

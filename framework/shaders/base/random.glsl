@@ -15,7 +15,7 @@ const uint RANDOM_LENS = 1u;       // xy: place on the lens, z: time within the 
 const uint RANDOM_THRESHOLD = 2u;  // thresholds that are random per path
 // Dimensions at a path's vertices; the primary hit is vertex 1.
 const uint RANDOM_BSDF = 8u;          // x: lobe, yz: direction
-const uint RANDOM_LIGHT_CHOICE = 9u;  // bits, x: slot, y: keep or alias, z: slot of an environment texel
+const uint RANDOM_LIGHT_CHOICE = 9u;  // bits, x: light, y: slot of an environment texel
 const uint RANDOM_LIGHT_POINT = 10u;  // x: keep or alias of the texel, yz: point
 const uint RANDOM_ROULETTE = 11u;
 const uint RANDOM_LEVEL = 12u;        // stochastic level of detail

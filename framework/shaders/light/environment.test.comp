@@ -14,7 +14,7 @@ const float PMF = 0.8, ROTATION = 0.7;
 const uint SUMS = TEST_SUMS * 32768u;  // then counts of texels
 
 float keepOf(uint texel) { return texel == SUN ? 1.0 : 0.2 + 0.02 * float(texel); }
-vec3 radianceOf(uint texel) { return texel == SUN ? vec3(40, 30, 20) : vec3(1.0 + float(texel % 5u), 2.0, 0.1 * float(texel)); }
+vec3 radianceOf(uint texel) { return texel == SUN ? vec3(40, 30, 20) : vec3(1.0 + float(texel % 5u), 2.0, 0.5 + 0.1 * float(texel)); }
 
 void write() {
     float given = 0.0;
@@ -25,8 +25,10 @@ void write() {
     }
     TestLights(testArray(TEST_LIGHTS)).at[0] = testLight(LIGHT_POINT, 1.0 - PMF);
     TestLights(testArray(TEST_LIGHTS)).at[1] = testLight(LIGHT_ENVIRONMENT, PMF);
-    TestLights(testArray(TEST_LIGHTS)).at[0].aliasProbability = 0.4;
-    TestLights(testArray(TEST_LIGHTS)).at[0].alias = 1u;
+    TestLights(testArray(TEST_LIGHTS)).at[0].last = 858993458u;  // a fifth of all numbers
+    TestLights(testArray(TEST_LIGHTS)).at[0].start = 0u;
+    TestLights(testArray(TEST_LIGHTS)).at[1].last = 0xffffffffu;
+    TestLights(testArray(TEST_LIGHTS)).at[1].start = 1u;
 }
 
 void known(World w) {

@@ -25,12 +25,23 @@ struct LightSample {
     bool delta;            // no BSDF sample can find it
 };
 
-/// Picks a light by the alias table and a point of it. choice = randomBits3(.., RANDOM_LIGHT_CHOICE), u = random3(.., RANDOM_LIGHT_POINT).
+/// The light that a number chooses, by bisection from one cut point (LightRecord.start) to the next: one step on average.
+uint numberedLight(World w, uint number) {
+    uint part = scaledIndex(number, w.lightCount), light = w.lights.at[part].start;
+    uint end = part + 1u < w.lightCount ? w.lights.at[part + 1u].start : w.lightCount - 1u;
+    while (light < end) {
+        uint middle = (light + end) / 2u;
+        if (number > w.lights.at[middle].last) light = middle + 1u;
+        else end = middle;
+    }
+    return light;
+}
+
+/// Picks a light and a point of it. choice = randomBits3(.., RANDOM_LIGHT_CHOICE), u = random3(.., RANDOM_LIGHT_POINT).
 LightPoint chooseLight(World w, uvec3 choice, vec3 u) {
     if (w.lightCount == 0u) return LightPoint(NONE, 0u, vec2(0.0));
-    uint light = scaledIndex(choice.x, w.lightCount);
-    if (unitFloat(choice.y) >= w.lights.at[light].aliasProbability) light = w.lights.at[light].alias;
-    if (light == w.environmentLight) return LightPoint(light, sampleEnvironmentTexel(w, choice.z, u.x), u.yz);
+    uint light = numberedLight(w, choice.x);
+    if (light == w.environmentLight) return LightPoint(light, sampleEnvironmentTexel(w, choice.y, u.x), u.yz);
     return LightPoint(light, 0u, uniformTriangle(u.yz));
 }
 

@@ -8,10 +8,10 @@
 layout(local_size_x = 64) in;
 
 // Lights: 0, 1 the triangles of a textured quad (a 2 x 2 square at z = 2 that faces -Z, instance 0); 2 a mirrored and stretched triangle,
-// instance 1; 3 point with range; 4 spot; 5 directional. The alias table is by hand: slot i keeps i below `keep`, else takes `other`.
+// instance 1; 3 point with range; 4 spot; 5 directional. The table of numbers is by hand.
 const uint LIGHTS = 6u;
-const float keep[LIGHTS] = float[](1.0, 1.0, 0.6, 0.9, 0.9, 0.6);
-const uint other[LIGHTS] = uint[](0u, 0u, 0u, 1u, 1u, 1u);
+const uint last[LIGHTS] = uint[](1002159035u, 2147483647u, 2576980377u, 3221225471u, 3865470565u, 4294967295u);
+const uint start[LIGHTS] = uint[](0u, 0u, 1u, 2u, 3u, 4u);
 const float pmf[LIGHTS] = float[](1.4 / 6.0, 1.6 / 6.0, 0.1, 0.15, 0.15, 0.1);  // what the table gives
 
 void write() {
@@ -53,8 +53,8 @@ void write() {
         LightRecord light = testLight(types[i], pmf[i]);
         light.instance = i / 2u;
         light.primitive = i;
-        light.aliasProbability = keep[i];
-        light.alias = other[i];
+        light.last = last[i];
+        light.start = start[i];
         light.position = vec3(0, 3, 0);
         light.intensity = vec3(9, 18, 36);
         light.range = i == 3u ? 6.0 : 0.0;
@@ -152,6 +152,10 @@ void knownAnswers(World w) {
         if (cases[i].light >= 3u && cases[i].from.z == 0.0) EXPECT_NEAR(s.direction, vec3(0, 1, 0), 1e-6);
     }
     EXPECT_EQ(chooseLight(testWorld(), uvec3(1), vec3(0.5)).light, NONE);
+    for (uint i = 0u; i < LIGHTS; ++i) {
+        EXPECT_EQ(numberedLight(w, last[i]), i);
+        EXPECT_EQ(numberedLight(w, last[i] + 1u), (i + 1u) % LIGHTS);
+    }
     EXPECT_EQ(lightPdf(w, 0u, 3u, vec3(0, 0, 1), 1.0), 0.0);
     // What rays see that hit the quad's front and back, and a double-sided triangle's back.
     const uint primitives[3] = uint[](1u, 1u, 2u);

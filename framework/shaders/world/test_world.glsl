@@ -63,5 +63,5 @@ InstanceRecord testInstance(vec4 row0, vec4 row1, vec4 row2) {
 }
 
 LightRecord testLight(uint type, float pmf) {
-    return LightRecord(type, NONE, NONE, pmf, vec3(0), 0.0, vec3(0, -1, 0), 0.0, vec3(1), 1.0, 0u, 0.0, uvec2(0));
+    return LightRecord(type, NONE, NONE, pmf, vec3(0), 0.0, vec3(0, -1, 0), 0.0, vec3(1), 0xffffffffu, 0u, 0.0, uvec2(0));
 }

@@ -139,8 +139,8 @@ struct LightRecord {
     vec3 direction;   // spot, directional: the way the light shines, unit
     float cosInner;   // spot
     vec3 intensity;   // point, spot: W/sr; directional: irradiance; times colour
-    float aliasProbability;  // Vose's alias table: keep this light when u < aliasProbability, else take `alias`
-    uint alias;
+    uint last;        // the last of the numbers in 0 .. 2^32 - 1 that choose this light: lights have them one after the other, each its share
+    uint start;       // at place i: the light that the first number x with floor(x lightCount / 2^32) = i chooses
     float range;      // point, spot: distance of its end, 0: none
     uvec2 pad;
 };
