@@ -11,8 +11,12 @@
 #include <framework/image/temporal.h>
 #include <framework/study/ensemble/report.h>
 #include <framework/study/ensemble/study.h>
+#include <framework/study/report/images.h>
 #include <framework/study/report/report.h>
+#include <framework/study/report/summary_json.h>
 #include <framework/study/stage.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -73,9 +77,10 @@ std::vector<PassCost> costsOf(const FrameReport& report) {
 }
 
 std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun& run, const std::string& name,
-                               const SceneReferences& references) {
+                               const SceneReferences& references, const Path& out) {
     std::vector<ResultRow> rows;
     const std::vector<StagedFrame> frames = stage.render(run);
+    keepImage(out, study, run, name, frames.back().image);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         ResultRow row{.run = name,
                       .scene = study.scenes[run.scene].name,
@@ -113,7 +118,6 @@ void noteRest(std::size_t foreign, std::size_t missing, const char* what, const 
     if (foreign > 0)
         log::note("{} rows in {} belong to other versions of the study or of what it runs, and are left out", foreign, out.string());
     if (missing > 0) log::note("{} {} are still missing", missing, what);
-    log::note("{}", (out / "report.html").string());
 }
 
 /// Rows and report of what was done are there; the rest is not.
@@ -160,14 +164,16 @@ int runStudy(const StudyOptions& options) {
         log::Progress progress("runs", todo.size());
         for (const std::size_t i : todo) {
             if (interrupt.signal() != 0) break;
-            if (!references || references->scene != runs[i].scene)
+            if (!references || references->scene != runs[i].scene) {
                 references = std::make_unique<SceneReferences>(makeReferences(stage, study, runs[i].scene, out / "references"));
-            results.add(measure(stage, study, runs[i], names[i], *references));
+                keepReference(out, study, runs[i].scene, references->frames.back().mean);
+            }
+            results.add(measure(stage, study, runs[i], names[i], *references, out));
             progress.advance();
         }
     }
     const Summary summary = summarize(study, runs, names, readResults(out));
-    writeFile(out / "report.html", reportHtml(study, summary));
+    writeReport(out, summaryJson(study, summary));
     std::printf("%s", summaryText(study, summary).c_str());
     noteRest(summary.foreign, summary.missing, "runs", out);
     endInterrupted(interrupt);
@@ -178,7 +184,7 @@ int runStudy(const StudyOptions& options) {
 
 void addStudy(CLI::App& app, std::function<int()>& run) {
     auto options = std::make_shared<StudyOptions>();
-    Command command(app, "study", "Measures techniques against each other and writes results.jsonl and report.html.");
+    Command command(app, "study", "Measures techniques against each other and writes results.jsonl, summary.json and report.html.");
     command.option("STUDY", options->study, "study file").required();
     command.option("--out", options->out, "folder for what is written (out/<name of the study>)").check(checkNotEmpty);
     command.flag("--resume", options->resume, "keep the results that are there, make what is missing");

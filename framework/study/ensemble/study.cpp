@@ -3,8 +3,10 @@
 #include <framework/image/exr.h>
 #include <framework/image/png.h>
 #include <framework/study/ensemble/images.h>
-#include <framework/study/ensemble/report.h>
 #include <framework/study/ensemble/study.h>
+#include <framework/study/report/images.h>
+#include <framework/study/report/report.h>
+#include <framework/study/report/summary_json.h>
 #include <framework/study/results.h>
 
 #include <fmt/format.h>
@@ -13,13 +15,6 @@
 
 namespace lodestir {
 namespace {
-
-/// Letters, digits and some signs; the rest becomes "_".
-std::string fileName(std::string text) {
-    for (char& c : text)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-    return text;
-}
 
 std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study& study, const EnsembleChunk& chunk, const std::string& name,
                                  const Path& images) {
@@ -42,15 +37,14 @@ std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study&
 }
 
 /// How the images of chunks converge. Writes the mean of the runs, and a map of where it isn't the reference's; the reference's own mean beside them.
-Convergence judgeImages(const Study& study, const EnsembleCell& cell, const Path& chunks, const Path& folder) {
+Convergence judgeImages(const Study& study, const EnsembleCell& cell, const Path& out) {
     constexpr double top = 5;  // sigmas of full colour
-    const std::vector<EnsembleImage> parts = readChunkImages(chunks, cell.chunks, cell.offset);
-    const EnsembleImage runs = joinImages(parts), reference = joinImages(readChunkImages(chunks, cell.referenceChunks, cell.offset));
-    const std::string scene = study.scenes[cell.scene].name;
-    const std::string name = fileName(fmt::format("{}.{}.{}", scene, labelOf(study, cell), cell.offset));
-    writeExr(folder / (name + ".exr"), firstChannels(runs.image, 3));
-    writeExr(folder / fileName(fmt::format("{}.reference.{}.exr", scene, cell.offset)), firstChannels(reference.image, 3));
-    writePng(folder / (name + ".sigmas.png"), divergingMap(sigmaMap(runs, reference), top));
+    const std::vector<EnsembleImage> parts = readChunkImages(out / "chunks", cell.chunks, cell.offset);
+    const EnsembleImage runs = joinImages(parts), reference = joinImages(readChunkImages(out / "chunks", cell.referenceChunks, cell.offset));
+    const Path file = out / ensembleImageFile(study, cell);
+    writeExr(file, firstChannels(runs.image, 3));
+    writeExr(out / ensembleReferenceFile(study, cell.scene, cell.offset), firstChannels(reference.image, 3));
+    writePng(Path(file).replace_extension(".sigmas.png"), divergingMap(sigmaMap(runs, reference), top));
     return convergenceOf(parts, reference);
 }
 
@@ -81,8 +75,8 @@ EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, c
     }
     EnsembleSummary summary = summarizeEnsemble(study, chunks, names, readEnsembleRows(out));
     for (EnsembleCell& cell : summary.cells)
-        if (cell.complete) cell.convergence = judgeImages(study, cell, out / "chunks", out / "images");
-    writeFile(out / "report.html", ensembleHtml(study, summary));
+        if (cell.complete) cell.convergence = judgeImages(study, cell, out);
+    writeReport(out, summaryJson(study, summary));
     return summary;
 }
 

@@ -8,7 +8,7 @@
 namespace lodestir {
 
 /// Measures the chunks of a shard that `out` doesn't hold yet, adding rows to `file`, and judges all that is there. Beside the results it
-/// writes chunks/ (images of chunks, for what comes later), images/ (means and maps of sigmas) and report.html. Asked before each chunk,
+/// writes chunks/ (images of chunks, for what comes later), images/ (means and maps of sigmas) and the report. Asked before each chunk,
 /// `stops` tells whether the rest is left for another time.
 EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard,
                             const std::function<bool()>& stops);

@@ -12,7 +12,7 @@ namespace {
 struct Samples {
     Cell cell;
     std::vector<double> milliseconds, rays;
-    std::map<std::string, std::pair<double, double>> passes;  ///< sums of milliseconds and rays
+    std::map<std::string, PassSummary> passes;  ///< sums
     std::vector<std::string> passOrder;
     std::map<std::string, double> deviation;
 
@@ -22,10 +22,16 @@ struct Samples {
         for (const PassCost& pass : row.passes) {
             const auto [place, isNew] = passes.try_emplace(pass.name);
             if (isNew) passOrder.push_back(pass.name);
-            place->second.first += pass.milliseconds;
-            for (const auto& [purpose, count] : pass.rays) place->second.second += double(count);
+            place->second.milliseconds += pass.milliseconds;
+            for (const auto& [purpose, count] : pass.rays) {
+                place->second.rays += double(count);
+                place->second.purposes[purpose] += double(count);
+            }
         }
         for (const auto& [name, value] : row.metrics) cell.values[name].push_back(value);
+        cell.runs.push_back(row.run);
+        cell.drawn.push_back(row.seed);
+        cell.exposure = row.exposure;
         cell.noise = row.noise;
         deviation = row.deviation;
     }
@@ -37,8 +43,12 @@ struct Samples {
         cell.fastest = std::ranges::min(milliseconds);
         cell.slowest = std::ranges::max(milliseconds);
         cell.rays = estimateMean(rays);
-        for (const std::string& name : passOrder)
-            cell.passes.push_back({name, passes[name].first / cell.seeds, passes[name].second / cell.seeds});
+        for (const std::string& name : passOrder) {
+            PassSummary& pass = cell.passes.emplace_back(passes[name]);
+            pass.name = name;
+            for (double* sum : {&pass.milliseconds, &pass.rays}) *sum /= cell.seeds;
+            for (auto& [purpose, sum] : pass.purposes) sum /= cell.seeds;
+        }
         for (const auto& [name, values] : cell.values) cell.metrics[name] = withSharedError(estimateMean(values), deviation[name]);
         return cell;
     }

@@ -15,6 +15,7 @@ namespace lodestir {
 struct PassSummary {
     std::string name;
     double milliseconds = 0, rays = 0;  ///< means over seeds
+    std::map<std::string, double> purposes;  ///< of the rays
 };
 
 struct Cell {
@@ -27,6 +28,9 @@ struct Cell {
     std::vector<PassSummary> passes;
     std::map<std::string, Estimate> metrics;
     std::map<std::string, std::vector<double>> values;  ///< of the metrics, seed by seed
+    std::vector<std::string> runs;                      ///< hashes, parallel to the values
+    std::vector<std::uint32_t> drawn;                   ///< their seeds
+    double exposure = 1;                                ///< that the metrics were measured at
     std::map<std::string, double> noise;                ///< of the reference
 };
 

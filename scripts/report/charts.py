@@ -1,0 +1,462 @@
+# SPDX-License-Identifier: MIT
+"""One function a chart. Each takes results, a scene (index) and, where there is one for each, a metric; it gives a Drawing, or None where the study has
+nothing for it. `ERROR` and `ENSEMBLE` list them by the names that study files use."""
+import re
+from dataclasses import dataclass
+from typing import Callable
+
+import numpy
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from .drawing import GREY, INK, Drawing, color_of, curve_style, number, scale, with_interval
+
+
+def slug(*parts):
+    return re.sub(r"[^A-Za-z0-9.-]+", "_", ".".join(part for part in parts if part))
+
+
+def devices(r):
+    return " and ".join(device.split(",")[0].split(" (")[0] for device in r.summary["devices"]) or "no device yet"
+
+
+def with_unit(metric):
+    return metric["name"] + (f" ({metric['unit']})" if metric["unit"] else "")
+
+
+def at_frame(r, frame):
+    return f", frame {r.frames[frame]}" if len(r.frames) > 1 else ""
+
+
+def shown_frame(r, metric=None):
+    """The frame that charts without a frame axis show: the event's own, else the last; of a metric of steps the first one after it that has it."""
+    shown = r.frame(0) if 0 in r.frames else len(r.frames) - 1
+    if metric:
+        has = numpy.isfinite(r.error[metric["name"]]).any(axis=(0, 1))
+        later = numpy.flatnonzero(has & (numpy.arange(len(r.frames)) >= shown))
+        if later.size:
+            return int(later[0])
+    return shown
+
+
+@dataclass
+class Point:
+    x: float
+    y: float
+    about: str
+    y_range: tuple = (numpy.nan, numpy.nan)
+    x_range: tuple = (numpy.nan, numpy.nan)
+    label: str = ""
+
+
+def draw_points(d, curves, x_label, y_label, log_x, log_y, direct=False):
+    """Curves: {name: (arguments of curve_style, points)}. Points that have no place on the axes are counted below the chart, never moved."""
+    axes = d.axes
+    fits = lambda p: numpy.isfinite([p.x, p.y]).all() and (not log_x or p.x > 0) and (not log_y or p.y > 0)  # noqa: E731
+    drawn = [p for _, points in curves.values() for p in points if fits(p)]
+    scale(axes.xaxis, [value for p in drawn for value in (p.x, *p.x_range)], log_x)
+    low = scale(axes.yaxis, [value for p in drawn for value in (p.y, *p.y_range)], log_y)[0]
+    ends, handles = [], []
+    for name, (place, points) in curves.items():
+        style, points = curve_style(*place), [p for p in points if fits(p)]
+        axes.plot([p.x for p in points], [p.y for p in points], color=style["color"], linestyle=style["linestyle"])
+        for p in points:
+            if numpy.isfinite(p.y_range).all():
+                axes.plot([p.x, p.x], [p.y_range[0] if not log_y or p.y_range[0] > 0 else low, p.y_range[1]], color=style["color"], linewidth=0.7)
+            if numpy.isfinite(p.x_range).all():
+                axes.plot(p.x_range, [p.y, p.y], color=style["color"], linewidth=0.7)
+            (mark,) = axes.plot([p.x], [p.y], color=style["color"], marker=style["marker"], linestyle="none", markeredgecolor="white", markeredgewidth=0.4)
+            d.hint(mark, p.about)
+        if points:
+            ends.append((points[-1].y, name, style["color"]))
+        handles.append(Line2D([], [], **style))
+    axes.set(xlabel=x_label, ylabel=y_label)
+    if direct and ends and len(ends) <= 6 and max(len(name) for _, name, _ in ends) <= 20:
+        d.label_ends(ends)
+    else:
+        d.legend(handles, list(curves))
+    hidden = sum(not fits(p) for _, points in curves.values() for p in points)
+    if hidden:
+        d.note = f"{hidden} {'point has' if hidden == 1 else 'points have'} no place on these axes and {'stands' if hidden == 1 else 'stand'} in the table only."
+    return d
+
+
+def error_curves(r, scene, metric, time):
+    frame, curves, name = shown_frame(r, metric), {}, metric["name"]
+    for c, configuration in enumerate(r.configurations):
+        error, half = r.error[name][scene, c, frame], r.half_width[name][scene, c, frame]
+        ms, rays = r.ms[scene, c, frame], r.rays[scene, c, frame]
+        if r.cell(scene, c, frame) is None or numpy.isnan(ms):
+            continue
+        about = f"{configuration.label}: {number(ms)} ms, {number(rays)} rays a pixel, {name} {with_interval(error, half)}"
+        point = Point(ms if time else rays, error, about, (error - half, error + half), tuple(r.ms_range[scene, c, frame]) if time else (numpy.nan, numpy.nan),
+                      configuration.point)
+        curves.setdefault(configuration.curve, ((r.place[configuration.label][0],), []))[1].append(point)
+    return frame, curves
+
+
+def error_vs_time(r, scene, metric):
+    frame, curves = error_curves(r, scene, metric, True)
+    d = Drawing(slug(r.scenes[scene], "error_vs_time", metric["name"]), f"{metric['name']} against time{at_frame(r, frame)}")
+    return draw_points(d, curves, f"time of the frame (ms, {devices(r)})", with_unit(metric), True, metric["fromZero"])
+
+
+def error_vs_rays(r, scene, metric):
+    frame, curves = error_curves(r, scene, metric, False)
+    d = Drawing(slug(r.scenes[scene], "error_vs_rays", metric["name"]), f"{metric['name']} against rays{at_frame(r, frame)}")
+    return draw_points(d, curves, "rays a pixel", with_unit(metric), True, metric["fromZero"])
+
+
+def undominated(points):
+    """Of those that no other is better than in both, by rising x."""
+    best, kept = numpy.inf, []
+    for p in sorted(points, key=lambda p: (p.x, p.y)):
+        if p.y < best:
+            best = p.y
+            kept.append(p)
+    return kept
+
+
+def frontier(r, scene, metric):
+    """Error against time of every technique and knob; the undominated joined and named."""
+    if not metric["fromZero"]:
+        return None
+    frame, curves = error_curves(r, scene, metric, True)
+    points = [p for _, all_of_curve in curves.values() for p in all_of_curve if p.x > 0 and p.y > 0]
+    if len(points) < 2:
+        return None
+    d = Drawing(slug(r.scenes[scene], "frontier", metric["name"]), f"Frontier of {metric['name']} and time{at_frame(r, frame)}")
+    best = undominated(points)
+    axes = d.axes
+    axes.step([p.x for p in best], [p.y for p in best], where="post", color=GREY, linewidth=0.9, zorder=1)
+    scale(axes.xaxis, [value for p in points for value in (p.x,)], True)
+    scale(axes.yaxis, [p.y for p in points], True)
+    handles = []
+    for place, all_of_curve in curves.values():
+        style = {**curve_style(*place), "linestyle": "none"}
+        handles.append(Line2D([], [], **style))
+        for p in all_of_curve:
+            if not (p.x > 0 and p.y > 0):
+                continue
+            kept = p in best
+            (mark,) = axes.plot([p.x], [p.y], **style, markersize=4.5 if kept else 3, alpha=1 if kept else 0.6, markeredgecolor="white", markeredgewidth=0.4)
+            d.hint(mark, p.about + ("; not dominated" if kept else ""))
+            if kept and p.label:
+                axes.annotate(p.label, (p.x, p.y), (3, 3), textcoords="offset points", fontsize=5.5, color=style["color"])
+    axes.set(xlabel=f"time of the frame (ms, {devices(r)})", ylabel=with_unit(metric))
+    d.legend(handles, list(curves))
+    d.note = "Joined: what nothing else measured is both faster and nearer than. Medians and means alone; intervals are in the chart of error against time."
+    return d
+
+
+def frame_curves(r, scene, metric, relative):
+    name, curves = metric["name"], {}
+    has = numpy.flatnonzero(numpy.isfinite(r.error[name][scene]).any(axis=0))
+    start = int(has[0]) if has.size else 0
+    for c, configuration in enumerate(r.configurations):
+        for f in has:
+            error, half = r.error[name][scene, c, f], r.half_width[name][scene, c, f]
+            if relative:
+                cell = r.cell(scene, c, int(f))
+                ratio = cell["metrics"].get(name, {}).get("againstStart") if cell else None
+                if ratio is None:
+                    continue
+                error, half = (numpy.nan if ratio[key] is None else ratio[key] for key in ("mean", "halfWidth"))
+            label = configuration.label
+            curves.setdefault(label, (r.place[label], []))[1].append(
+                Point(float(r.frames[f]), error, f"{label}, frame {r.frames[f]}: {with_interval(error, half)}", (error - half, error + half)))
+    return start, curves
+
+
+def error_vs_frame(r, scene, metric):
+    if len(r.frames) < 2:
+        return None
+    _, curves = frame_curves(r, scene, metric, False)
+    d = Drawing(slug(r.scenes[scene], "error_vs_frame", metric["name"]), f"{metric['name']} against the frame")
+    return draw_points(d, curves, "frame, counted from the event", with_unit(metric), False, metric["fromZero"], direct=True)
+
+
+def stability(r, scene, metric):
+    """The error as a multiple of the first measured frame's: what an event does to a technique, whatever its level."""
+    if len(r.frames) < 2 or not metric["fromZero"]:
+        return None
+    start, curves = frame_curves(r, scene, metric, True)
+    d = Drawing(slug(r.scenes[scene], "stability", metric["name"]), f"Stability: {metric['name']} against that of frame {r.frames[start]}")
+    return draw_points(d, curves, "frame, counted from the event", f"{metric['name']} ÷ that of frame {r.frames[start]}", False, True, direct=True)
+
+
+def stacked(r, scene, chart, title, x_label, costs):
+    """Horizontal bars, a configuration each, parts of one pass in one colour; costs (configuration, pass)."""
+    shown = [c for c in range(len(r.configurations)) if numpy.isfinite(costs[c]).any()]
+    if not shown or not numpy.nansum(costs) > 0:
+        return None
+    used = [p for p in range(len(r.passes)) if numpy.nansum(costs[:, p]) > 0]  # colours are those of the study's list, the same in every chart
+    d = Drawing(slug(r.scenes[scene], chart), title, height=0.5 + 0.17 * len(shown))
+    axes, total = d.axes, numpy.nansum(costs, axis=1)
+    for row, c in enumerate(shown):
+        start = 0.0
+        for p in used:
+            value = costs[c, p]
+            if not value > 0:
+                continue
+            (bar,) = axes.barh(row, value, left=start, height=0.72, color=color_of(p), edgecolor="white", linewidth=0.3)
+            d.hint(bar, f"{r.configurations[c].label}, {r.passes[p]}: {number(value)} of {number(total[c])}")
+            start += value
+        axes.text(start, row, " " + number(start, 3), va="center", fontsize=6, color=INK)
+    axes.set_yticks(range(len(shown)), [r.configurations[c].label for c in shown])
+    axes.set(ylim=(len(shown) - 0.4, -0.6), xlabel=x_label)
+    axes.set_xlim(0, 1.14 * max(total[shown]))
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0)
+    d.legend([Patch(color=color_of(p)) for p in used], [r.passes[p] for p in used])
+    return d
+
+
+def time_by_pass(r, scene):
+    f = shown_frame(r)
+    return stacked(r, scene, "time_by_pass", f"Time by pass{at_frame(r, f)}", f"mean time (ms, {devices(r)})", r.pass_ms[scene, :, f])
+
+
+def rays_by_pass(r, scene):
+    f = shown_frame(r)
+    return stacked(r, scene, "rays_by_pass", f"Rays by pass{at_frame(r, f)}", "rays a pixel", numpy.nansum(r.pass_rays[scene, :, f], axis=-1))
+
+
+def rays_by_purpose(r, scene):
+    f = shown_frame(r)
+    costs = numpy.nansum(r.pass_rays[scene, :, f], axis=1)
+    used = [p for p in range(len(r.purposes)) if costs[:, p].sum() > 0]
+    if len(used) < 2:
+        return None
+    by_purpose = type("ByPurpose", (), {"scenes": r.scenes, "configurations": r.configurations, "passes": r.purposes})
+    return stacked(by_purpose, scene, "rays_by_purpose", f"Rays by purpose{at_frame(r, f)}", "rays a pixel", costs)
+
+
+def draw_forest(d, names, values, halves, good, about, x_label, reference, log=False):
+    """Intervals one below the other, `reference` a line through all."""
+    axes = d.axes
+    ends = [value for v, h in zip(values, halves) for value in (v, v - h, v + h)] + [reference]
+    low = scale(axes.xaxis, ends, log)[0]
+    axes.axvline(reference, color=INK, linewidth=0.7, zorder=1)
+    for row, (value, half) in enumerate(zip(values, halves)):
+        if not numpy.isfinite(value) or (log and value <= 0):
+            continue
+        color = color_of(0) if good[row] else color_of(1)
+        if numpy.isfinite(half):
+            axes.plot([max(value - half, low) if log else value - half, value + half], [row, row], color=color, linewidth=1.1)
+        (mark,) = axes.plot([value], [row], marker="o" if good[row] else "D", color=color, markersize=3.5, linestyle="none")
+        d.hint(mark, about[row])
+    axes.set_yticks(range(len(names)), names)
+    axes.set(ylim=(len(names) - 0.4, -0.6), xlabel=x_label)
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0)
+    return d
+
+
+def paired(r, scene, metric):
+    """Errors as multiples of the first configuration's, seed by seed."""
+    f, name = shown_frame(r, metric), metric["name"]
+    ratios = r.against_first[name][scene, :, f]
+    shown = numpy.flatnonzero(numpy.isfinite(ratios[:, 0]))
+    if not metric["fromZero"] or shown.size == 0:
+        return None
+    first = r.labels[0]
+    d = Drawing(slug(r.scenes[scene], "paired", name), f"{name} against that of {first}, seed by seed{at_frame(r, f)}", height=0.5 + 0.16 * len(shown))
+    labels = [r.configurations[c].label for c in shown]
+    values, halves = ratios[shown, 0], ratios[shown, 1]
+    about = [f"{label}: {with_interval(v, h)} times the {name} of {first}" for label, v, h in zip(labels, values, halves)]
+    draw_forest(d, labels, values, halves, [v - h <= 1 for v, h in zip(values, halves)], about, f"{name} ÷ that of {first}", 1.0, log=True)
+    d.note = "95 % intervals of the ratio of means over paired seeds. Diamonds: worse beyond the interval."
+    return d
+
+
+OUTCOMES = [("best, or within its interval", "#cfe3f2"), ("up to 2 times the best", "#f3eedd"), ("up to 5 times", "#f4cfa4"), ("more", "#e08a5b")]
+
+
+def outcome(mean, half, best, best_half):
+    if mean - (half if numpy.isfinite(half) else 0) <= best + (best_half if numpy.isfinite(best_half) else 0):
+        return 0
+    return 1 if mean <= 2 * best else 2 if mean <= 5 * best else 3
+
+
+def stability_matrix(r, metric):
+    """Technique by scene, each a case where methods fail: the mean over the measured steps."""
+    if not metric["temporal"]:
+        return None
+    values = r.sequence[metric["name"]]
+    rows = [c for c in range(len(r.configurations)) if numpy.isfinite(values[:, c, 0]).any()]
+    if not rows:
+        return None
+    d = Drawing(slug("stability_matrix", metric["name"]), f"Stability by case: {metric['name']}", height=0.55 + 0.2 * len(rows))
+    axes = d.axes
+    for s in range(len(r.scenes)):
+        column = values[s][rows]
+        best = int(numpy.nanargmin(column[:, 0])) if numpy.isfinite(column[:, 0]).any() else 0
+        for row, (mean, half) in enumerate(column):
+            if not numpy.isfinite(mean):
+                continue
+            kind = outcome(mean, half, *column[best])
+            (cell,) = axes.bar(s, 1, width=1, bottom=row - 0.5, color=OUTCOMES[kind][1], edgecolor="white", linewidth=1)
+            label = r.configurations[rows[row]].label
+            d.hint(cell, f"{label}, {r.scenes[s]}: {with_interval(mean, half)}; {OUTCOMES[kind][0]}")
+            axes.text(s, row, number(mean, 3), ha="center", va="center", fontsize=6.5, color=INK, fontweight="bold" if row == best else "normal")
+    axes.set_xticks(range(len(r.scenes)), r.scenes, rotation=0 if len(r.scenes) <= 4 else 35, ha="center" if len(r.scenes) <= 4 else "left")
+    axes.xaxis.tick_top()
+    axes.set_yticks(range(len(rows)), [r.configurations[c].label for c in rows])
+    axes.set(xlim=(-0.5, len(r.scenes) - 0.5), ylim=(len(rows) - 0.5, -0.5))
+    axes.grid(False)
+    axes.tick_params(length=0)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
+    d.legend([Patch(facecolor=color) for _, color in OUTCOMES], [text for text, _ in OUTCOMES])
+    d.note = f"Means of {with_unit(metric)} over the measured steps and seeds; bold: the least of a case."
+    return d
+
+
+def cost_vs_pixels(r, file, time):
+    """What a frame takes at the sizes of its image; `file`: the scene's, which has several."""
+    scenes = [s for s, scene in enumerate(r.summary["scenes"]) if scene["file"] == file]
+    f, curves = shown_frame(r), {}
+    for c, configuration in enumerate(r.configurations):
+        for s in scenes:
+            if r.cell(s, c, f) is None:
+                continue
+            value = r.ms[s, c, f] if time else r.rays[s, c, f]
+            about = f"{configuration.label}: {r.pixels[s]:.0f} pixels, {number(value)} {'ms' if time else 'rays a pixel'}"
+            curves.setdefault(configuration.label, (r.place[configuration.label], []))[1].append(
+                Point(r.pixels[s], value, about, tuple(r.ms_range[s, c, f]) if time else (numpy.nan, numpy.nan)))
+    what = "time" if time else "rays"
+    d = Drawing(slug(file, f"{what}_vs_pixels"), f"{file}: {what} of a frame against pixels")
+    return draw_points(d, curves, "pixels of the frame", f"time of the frame (ms, {devices(r)})" if time else "rays a pixel", True, time)
+
+
+# Ensembles.
+def ensemble_label(r, c, f):
+    return r.configurations[c].label + at_frame(r, f)
+
+
+def ensemble_cells(r, scene):
+    return [(c, f, cell) for s, c, f, cell in r.measured() if s == scene]
+
+
+def energy(r, scene):
+    """Mean luminance against the reference's, with the band that a verdict needs."""
+    cells = ensemble_cells(r, scene)
+    if not cells:
+        return None
+    d = Drawing(slug(r.scenes[scene], "energy"), "Energy against the reference, 95 % intervals", height=0.5 + 0.16 * len(cells))
+    names = [ensemble_label(r, c, f) for c, f, _ in cells]
+    values = [100 * r.difference[scene, c, f] for c, f, _ in cells]
+    halves = [100 * r.half_width[scene, c, f] for c, f, _ in cells]
+    band = 100 * r.summary["halfWidth"]
+    about = [f"{name}: {number(value)} ± {number(half, 2)} %, {cell['verdict']}" for name, value, half, (*_, cell) in zip(names, values, halves, cells)]
+    axes = d.axes
+    axes.axvspan(-band, band, color="#e4eff7", linewidth=0, zorder=0)
+    draw_forest(d, names, values, halves, [cell["verdict"] == "unbiased" for *_, cell in cells], about, "difference of mean luminance (%)", 0.0)
+    low, high = axes.get_xlim()
+    axes.set_xlim(min(low, -1.1 * band), max(high, 1.1 * band))
+    d.note = "Band: the half-width that was asked for. Diamonds: not judged unbiased."
+    return d
+
+
+def blocks(r, scene):
+    """Maps of the sigmas of each block's mean, in the colour that differs most."""
+    cells = ensemble_cells(r, scene)
+    cells = [entry for entry in cells if entry[2]["blockSigmas"]]
+    if not cells:
+        return None
+    columns = min(4, len(cells))
+    rows = -(-len(cells) // columns)
+    width, height = r.summary["scenes"][scene]["size"]
+    d = Drawing(slug(r.scenes[scene], "blocks"), "Blocks: sigmas against the reference", height=0.35 + rows * (3.1 / columns * height / width + 0.2), axes=False)
+    grid = d.figure.subplots(rows, columns, squeeze=False)
+    image = None
+    for axes, entry in zip(grid.flat, cells + [None] * (rows * columns - len(cells))):
+        axes.axis("off")
+        if entry is None:
+            continue
+        c, f, cell = entry
+        sigmas = numpy.array([numpy.nan if value is None else value for value in cell["blockSigmas"]], float)
+        values = sigmas.reshape(-1, cell["blockColumns"])
+        image = axes.pcolormesh(values, cmap="RdBu_r", vmin=-5, vmax=5, edgecolors="white", linewidth=0.3)
+        axes.set(aspect="equal", ylim=(values.shape[0], 0))
+        axes.set_title(ensemble_label(r, c, f), fontsize=6, pad=2)
+        for (y, x), value in numpy.ndenumerate(values):
+            (cell_artist,) = axes.bar(x + 0.5, 1, width=1, bottom=y, color=(0, 0, 0, 0), linewidth=0)
+            d.hint(cell_artist, f"block ({x}, {y}): {value:+.2f} sigmas".replace("-", "−"))
+    bar = d.figure.colorbar(image, ax=grid, orientation="horizontal", shrink=0.5, aspect=30, pad=0.04)
+    bar.outline.set_linewidth(0.4)
+    bar.set_label("sigmas of the block's mean (red: too bright, blue: too dark)")
+    return d
+
+
+def convergence(r, scene):
+    """RelMSE of the mean over more and more runs against the time that they take."""
+    curves = {}
+    for c, f, cell in ensemble_cells(r, scene):
+        if "convergence" not in cell:
+            continue
+        label = ensemble_label(r, c, f)
+        points = [Point(p["runs"] * cell["ms"], numpy.nan if p["relmse"] is None else p["relmse"], f"{label}: {p['runs']:g} runs, RelMSE {number(p['relmse'] or numpy.nan)}")
+                  for p in cell["convergence"]["points"]]
+        curves[label] = ((len(curves),), points)
+    if not curves:
+        return None
+    d = Drawing(slug(r.scenes[scene], "convergence"), "Error of the mean over runs")
+    draw_points(d, curves, f"time of the frame in all runs (ms, {devices(r)})", "RelMSE of luminance", True, True)
+    points = [p for _, all_of_curve in curves.values() for p in all_of_curve if p.x > 0 and p.y > 0]
+    if points:  # what has no bias falls by the number of runs
+        (low, high), corner = d.axes.get_xlim(), min(points, key=lambda p: p.x)
+        d.axes.plot([low, high], [corner.y * corner.x / low, corner.y * corner.x / high], color=GREY, linewidth=0.5, linestyle=":", zorder=0, scaley=False, scalex=False)
+        d.note = "Dotted: falling with the number of runs, as noise alone does. "+d.note
+    return d
+
+
+def power(r, scene):
+    """How often faults planted on purpose are caught."""
+    cells = [entry for entry in ensemble_cells(r, scene) if entry[2]["faults"]]
+    if not cells:
+        return None
+    faults = [f"{100 * fault['size']:g} %\n{'in one block' if fault['block'] else 'everywhere'}" for fault in cells[0][2]["faults"]] + ["false\nalarms"]
+    d = Drawing(slug(r.scenes[scene], "power"), "Power: planted faults caught", height=0.5 + 0.19 * len(cells))
+    axes = d.axes
+    for row, (c, f, cell) in enumerate(cells):
+        for column, fault in enumerate(cell["faults"] + [None]):
+            share = fault["caught"] if fault else cell["falseAlarms"]
+            wrong = (fault["needed"] and share < 0.95) if fault else share > 0.02
+            color = "#e08a5b" if wrong else ("#cfe3f2" if fault is None or share >= 0.95 else "#f3eedd")
+            (artist,) = axes.bar(column, 1, width=1, bottom=row - 0.5, color=color, edgecolor="white", linewidth=1)
+            d.hint(artist, f"{ensemble_label(r, c, f)}, {faults[column]}: {100 * share:.1f} %".replace("\n", " ") + (" (needed)" if fault and fault["needed"] else ""))
+            axes.text(column, row, f"{100 * share:.{0 if fault else 1}f} %", ha="center", va="center", fontsize=6.5, color=INK)
+    axes.set_xticks(range(len(faults)), faults)
+    axes.xaxis.tick_top()
+    axes.set_yticks(range(len(cells)), [ensemble_label(r, c, f) for c, f, _ in cells])
+    axes.set(xlim=(-0.5, len(faults) - 0.5), ylim=(len(cells) - 0.5, -0.5))
+    axes.grid(False)
+    axes.tick_params(length=0)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
+    d.note = (f"Share of bootstrapped ensembles in which a fault is seen whose size is a share of the whole image's energy, appearing or lost. Faults of "
+              f"{300 * r.summary['halfWidth']:g} % and more have to be seen (blue: at least 95 times in 100; orange: too seldom). False alarms: the same without a fault; 0.2 % are expected.")
+    return d
+
+
+@dataclass(frozen=True)
+class Chart:
+    draw: Callable
+    of: str = "scene"  # "metric": one for each scene and metric; "scene": one for each scene; "study": one for each metric over all scenes
+
+
+ERROR = {
+    "error_vs_time": Chart(error_vs_time, "metric"),
+    "error_vs_rays": Chart(error_vs_rays, "metric"),
+    "error_vs_frame": Chart(error_vs_frame, "metric"),
+    "frontier": Chart(frontier, "metric"),
+    "time_by_pass": Chart(time_by_pass),
+    "rays_by_pass": Chart(rays_by_pass),
+    "rays_by_purpose": Chart(rays_by_purpose),
+    "stability": Chart(stability, "metric"),
+    "paired": Chart(paired, "metric"),
+    "stability_matrix": Chart(stability_matrix, "study"),
+}
+ENSEMBLE = {"energy": Chart(energy), "blocks": Chart(blocks), "convergence": Chart(convergence), "power": Chart(power)}
