@@ -9,7 +9,8 @@ const data = JSON.parse(source.textContent);
 const $ = name => root.querySelector("." + name);
 const panes = [...root.querySelectorAll(".pane")], canvases = panes.map(pane => pane.querySelector("canvas"));
 const REFERENCE = 0; // place of the reference among a scene's images
-const state = { scene: 0, image: 1, right: "error", stops: 0, split: null, zoom: 1, x: 0.5, y: 0.5, loaded: null }; // x, y: what is in the middle, of the image
+// image: what is looked at; other: what it is split with; x, y: what is in the middle, of the image.
+const state = { image: 1, other: REFERENCE, showsError: true, stops: 0, split: null, zoom: 1, x: 0.5, y: 0.5, loaded: null };
 
 // Half floats as numbers, by their bits (IEEE 754 binary16).
 const numbers = new Float32Array(65536);
@@ -40,7 +41,8 @@ async function load(scene) {
     }
     const { width, height, exposure, images } = data.scenes[scene];
     const pixels = await Promise.all(images.map(image => image.data ? halvesOf(image.data) : null));
-    Object.assign(state, { scene, image: Math.min(Math.max(state.image, 1), images.length - 1), zoom: 1, x: 0.5, y: 0.5 });
+    const known = image => image < images.length && pixels[image] ? image : pixels.findIndex(halves => halves);
+    Object.assign(state, { image: known(state.image), other: known(state.other), zoom: 1, x: 0.5, y: 0.5 });
     kept.clear();
     state.loaded = { width, height, exposure, images, pixels };
     for (const pane of panes) pane.style.aspectRatio = `${width} / ${height}`;
@@ -128,23 +130,24 @@ function draw() {
         canvas.height = Math.round(panes[i].clientHeight * devicePixelRatio);
     }
     const picture = i => bitmap(`${i} ${state.stops}`, () => shown(pixels[i], width, height));
-    const front = picture(state.image), back = reference && picture(REFERENCE);
-    const split = back && state.split !== null ? state.split : 1;
-    paint(canvases[0], front, 0, split);
-    if (split < 1) paint(canvases[0], back, split, 1);
-    if (reference) paint(canvases[1], state.right === "error" ? bitmap(`${state.image} error`, () => errorMap(test, reference, width, height)) : back, 0, 1);
-    $("split").hidden = split === 1 && state.split === null;
+    const split = state.split ?? 1, showsError = state.showsError && reference;
+    paint(canvases[0], picture(state.image), 0, split);
+    if (split < 1) paint(canvases[0], picture(state.other), split, 1);
+    paint(canvases[1], showsError ? bitmap(`${state.image} error`, () => errorMap(test, reference, width, height)) : picture(state.other), 0, 1);
+    $("split").hidden = panes[0].querySelector(".right").hidden = state.split === null;
     $("split").style.left = 100 * split + "%";
     panes[0].querySelector(".left").textContent = images[state.image].name;
-    panes[0].querySelector(".right").textContent = "reference";
-    panes[0].querySelector(".right").hidden = $("split").hidden;
-    panes[1].querySelector(".left").textContent = state.right === "error" ? "error of " + images[state.image].name : "reference";
+    panes[0].querySelector(".right").textContent = images[state.other].name;
+    panes[1].querySelector(".left").textContent = showsError ? "error of " + images[state.image].name : images[state.other].name;
     $("stops").textContent = (state.stops > 0 ? "+" : state.stops < 0 ? "−" : "") + Math.abs(state.stops).toFixed(1) + " EV";
     $("exposure").value = state.stops;
     $("zoom").textContent = state.zoom.toFixed(state.zoom < 10 ? 1 : 0) + "×";
-    for (const button of $("techniques").children) button.setAttribute("aria-pressed", Number(button.value) === state.image);
+    for (const button of $("techniques").children) {
+        button.setAttribute("aria-pressed", Number(button.value) === state.image);
+        button.classList.toggle("other", Number(button.value) === state.other);
+    }
     $("toggle-split").setAttribute("aria-pressed", state.split !== null);
-    $("toggle-right").setAttribute("aria-pressed", state.right === "error");
+    $("toggle-error").setAttribute("aria-pressed", state.showsError);
 }
 
 function buttons() {
@@ -156,21 +159,22 @@ function buttons() {
         key.textContent = i === REFERENCE ? "0" : i <= 9 ? i : "";
         button.append(key, image.name);
         button.disabled = !state.loaded.pixels[i];
-        button.onclick = () => choose(i);
+        button.onclick = event => choose(i, event.shiftKey);
         group.append(button);
     });
 }
 
-function choose(image) {
+function choose(image, asOther) {
     if (!state.loaded || !state.loaded.pixels[image]) return;
-    state.image = image;
+    state[asOther ? "other" : "image"] = image;
     draw();
     if (state.pointer) tell(...state.pointer);
 }
 
 const toggleSplit = () => { state.split = state.split === null ? 0.5 : null; draw(); };
-const toggleRight = () => { state.right = state.right === "error" ? "reference" : "error"; draw(); };
+const toggleError = () => { state.showsError = !state.showsError; draw(); };
 const setStops = stops => { state.stops = Math.min(Math.max(Math.round(stops * 10) / 10, -10), 10); draw(); };
+const step = by => choose(state.image + by);
 const reset = () => { Object.assign(state, { zoom: 1, x: 0.5, y: 0.5 }); draw(); };
 
 // The pixel under a point of a pane, as places of the image that may lie outside.
@@ -189,9 +193,9 @@ function tell(pane, clientX, clientY) {
         return;
     }
     const i = 3 * (y * loaded.width + x), test = loaded.pixels[state.image], reference = loaded.pixels[REFERENCE];
-    const colour = halves => [0, 1, 2].map(c => short(numbers[halves[i + c]])).join(" ");
-    let text = `(${x}, ${y})  ${loaded.images[state.image].name}: ${colour(test)}`;
-    if (reference) text += `\nreference: ${colour(reference)}   relative squared error: ${short(errorAt(test, reference, i, loaded.exposure))}`;
+    const colour = image => `${loaded.images[image].name}: ${[0, 1, 2].map(c => short(numbers[loaded.pixels[image][i + c]])).join(" ")}`;
+    let text = `(${x}, ${y})  ${colour(state.image)}\n${colour(state.other)}`;
+    if (reference) text += `   relative squared error: ${short(errorAt(test, reference, i, loaded.exposure))}`;
     $("values").textContent = text;
 }
 
@@ -239,7 +243,7 @@ $("split").addEventListener("pointermove", event => {
 $("split").addEventListener("pointerup", () => { state.sliding = false; });
 
 $("toggle-split").onclick = toggleSplit;
-$("toggle-right").onclick = toggleRight;
+$("toggle-error").onclick = toggleError;
 $("reset").onclick = reset;
 $("exposure").oninput = event => setStops(Number(event.target.value));
 $("scene").replaceChildren(...data.scenes.map((scene, i) => new Option(scene.name, i)));
@@ -248,9 +252,12 @@ $("scene").onchange = event => load(Number(event.target.value));
 addEventListener("resize", draw);
 addEventListener("keydown", event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("select, textarea, input:not([type=range])")) return;
-    if (/^[0-9]$/.test(event.key)) choose(Number(event.key));
+    const digit = /^(Digit|Numpad)([0-9])$/.exec(event.code);
+    if (digit) choose(Number(digit[2]), event.shiftKey);
+    else if (event.key === "[") step(-1);
+    else if (event.key === "]") step(1);
     else if (event.key === "s") toggleSplit();
-    else if (event.key === "e") toggleRight();
+    else if (event.key === "e") toggleError();
     else if (event.key === "+" || event.key === "=") setStops(state.stops + 0.5);
     else if (event.key === "-") setStops(state.stops - 0.5);
     else if (event.key === "r") reset();

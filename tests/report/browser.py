@@ -64,8 +64,9 @@ class Browser:
     def _act(self, *sources):
         self._ask("POST", "/actions", {"actions": list(sources)})
 
-    def press(self, key):
-        self._act({"type": "key", "id": "keyboard", "actions": [{"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]})
+    def press(self, key, shift=False):
+        keys = ["\ue008", key] if shift else [key]
+        self._act({"type": "key", "id": "keyboard", "actions": [{"type": kind, "value": k} for kind, order in (("keyDown", keys), ("keyUp", keys[::-1])) for k in order]})
 
     def _moves(self, places):
         return [{"type": "pointerMove", "x": round(x), "y": round(y), "duration": 0, "origin": "viewport"} for x, y in places]

@@ -79,6 +79,9 @@ class ViewerTest(unittest.TestCase):
             self.browser.press(key)
             self.assertEqual(self.name(0), name)
             self.assertShows(0, 3, 9, self.radiance(index, 3, 9))
+        self.browser.press("]")
+        self.assertEqual(self.name(0), "path tracing, spp 4")
+        self.browser.press("[")
         self.browser.press("9")
         self.assertEqual(self.name(0), "path tracing, spp 1", "there is no ninth")
 
@@ -140,6 +143,10 @@ class ViewerTest(unittest.TestCase):
         self.browser.drag(self.at(0, 0.5, 0.3), self.at(0, 0.7, 0.3), self.at(0, 0.9, 0.3))
         self.assertShows(0, 20, 9, self.radiance(2, 20, 9))
         self.assertShows(0, 23, 9, self.radiance(None, 23, 9))
+        self.browser.press("2", shift=True)
+        self.assertEqual(self.name(0), "reuse")
+        self.assertShows(0, 3, 9, self.radiance(2, 3, 9))
+        self.assertShows(0, 23, 9, self.radiance(1, 23, 9))
         self.browser.press("s")
         self.assertShows(0, 23, 9, self.radiance(2, 23, 9))
 
