@@ -49,8 +49,9 @@ class Point:
     label: str = ""
 
 
-def draw_points(d, curves, x_label, y_label, log_x, log_y, direct=False):
-    """Curves: {name: (arguments of curve_style, points)}. Points that have no place on the axes are counted below the chart, never moved."""
+def draw_points(d, curves, x_label, y_label, log_x, log_y, frames=False):
+    """Curves: {name: (arguments of curve_style, points)}. Points that have no place on the axes are counted below the chart, never moved. `frames`: all curves
+    have the same x, so that intervals are bands and names stand at the curves' ends."""
     axes = d.axes
     fits = lambda p: numpy.isfinite([p.x, p.y]).all() and (not log_x or p.x > 0) and (not log_y or p.y > 0)  # noqa: E731
     drawn = [p for _, points in curves.values() for p in points if fits(p)]
@@ -60,24 +61,30 @@ def draw_points(d, curves, x_label, y_label, log_x, log_y, direct=False):
     for name, (place, points) in curves.items():
         style, points = curve_style(*place), [p for p in points if fits(p)]
         axes.plot([p.x for p in points], [p.y for p in points], color=style["color"], linestyle=style["linestyle"])
+        if frames:
+            spans = [p for p in points if numpy.isfinite(p.y_range).all()]
+            axes.fill_between([p.x for p in spans], [max(p.y_range[0], low) if log_y else p.y_range[0] for p in spans], [p.y_range[1] for p in spans],
+                              color=style["color"], alpha=0.14, linewidth=0)
         for p in points:
-            if numpy.isfinite(p.y_range).all():
+            if numpy.isfinite(p.y_range).all() and not frames:
                 axes.plot([p.x, p.x], [p.y_range[0] if not log_y or p.y_range[0] > 0 else low, p.y_range[1]], color=style["color"], linewidth=0.7)
             if numpy.isfinite(p.x_range).all():
                 axes.plot(p.x_range, [p.y, p.y], color=style["color"], linewidth=0.7)
-            (mark,) = axes.plot([p.x], [p.y], color=style["color"], marker=style["marker"], linestyle="none", markeredgecolor="white", markeredgewidth=0.4)
+            (mark,) = axes.plot([p.x], [p.y], **{**style, "linestyle": "none"}, markeredgecolor="white", markeredgewidth=0.4)
             d.hint(mark, p.about)
         if points:
             ends.append((points[-1].y, name, style["color"]))
         handles.append(Line2D([], [], **style))
     axes.set(xlabel=x_label, ylabel=y_label)
-    if direct and ends and len(ends) <= 6 and max(len(name) for _, name, _ in ends) <= 20:
+    if frames and ends and len(ends) <= 6 and max(len(name) for _, name, _ in ends) <= 20:
         d.label_ends(ends)
     else:
         d.legend(handles, list(curves))
     hidden = sum(not fits(p) for _, points in curves.values() for p in points)
+    if frames and any(numpy.isfinite(p.y_range).all() for p in drawn):
+        d.note = "Bands: 95 % intervals. "
     if hidden:
-        d.note = f"{hidden} {'point has' if hidden == 1 else 'points have'} no place on these axes and {'stands' if hidden == 1 else 'stand'} in the table only."
+        d.note += f"{hidden} {'point has' if hidden == 1 else 'points have'} no place on these axes and {'stands' if hidden == 1 else 'stand'} in the table only."
     return d
 
 
@@ -139,10 +146,11 @@ def frontier(r, scene, metric):
             if not (p.x > 0 and p.y > 0):
                 continue
             kept = p in best
-            (mark,) = axes.plot([p.x], [p.y], **style, markersize=4.5 if kept else 3, alpha=1 if kept else 0.6, markeredgecolor="white", markeredgewidth=0.4)
+            (mark,) = axes.plot([p.x], [p.y], color=style["color"], marker=style["marker"], linestyle="none", markersize=(1.4 if kept else 1.0) * style["markersize"], alpha=1 if kept else 0.6, markeredgecolor="white", markeredgewidth=0.4)
             d.hint(mark, p.about + ("; not dominated" if kept else ""))
             if kept and p.label:
-                axes.annotate(p.label, (p.x, p.y), (3, 3), textcoords="offset points", fontsize=5.5, color=style["color"])
+                right = axes.transAxes.inverted().transform(axes.transData.transform((p.x, p.y)))[0] > 0.85
+                axes.annotate(p.label, (p.x, p.y), (-3 if right else 3, 4), textcoords="offset points", fontsize=5.5, color=style["color"], ha="right" if right else "left")
     axes.set(xlabel=f"time of the frame (ms, {devices(r)})", ylabel=with_unit(metric))
     d.legend(handles, list(curves))
     d.note = "Joined: what nothing else measured is both faster and nearer than. Medians and means alone; intervals are in the chart of error against time."
@@ -173,7 +181,7 @@ def error_vs_frame(r, scene, metric):
         return None
     _, curves = frame_curves(r, scene, metric, False)
     d = Drawing(slug(r.scenes[scene], "error_vs_frame", metric["name"]), f"{metric['name']} against the frame")
-    return draw_points(d, curves, "frame, counted from the event", with_unit(metric), False, metric["fromZero"], direct=True)
+    return draw_points(d, curves, "frame, counted from the event", with_unit(metric), False, metric["fromZero"], frames=True)
 
 
 def stability(r, scene, metric):
@@ -182,54 +190,67 @@ def stability(r, scene, metric):
         return None
     start, curves = frame_curves(r, scene, metric, True)
     d = Drawing(slug(r.scenes[scene], "stability", metric["name"]), f"Stability: {metric['name']} against that of frame {r.frames[start]}")
-    return draw_points(d, curves, "frame, counted from the event", f"{metric['name']} ÷ that of frame {r.frames[start]}", False, True, direct=True)
+    return draw_points(d, curves, "frame, counted from the event", f"{metric['name']} ÷ that of frame {r.frames[start]}", False, True, frames=True)
 
 
-def stacked(r, scene, chart, title, x_label, costs):
-    """Horizontal bars, a configuration each, parts of one pass in one colour; costs (configuration, pass)."""
+def weighty(*costs):
+    """Places along the last axis of what makes a hundredth or more of the longest bar of any chart of the study; colours are given by them."""
+    shares = []
+    for values in costs:
+        longest = numpy.nanmax(numpy.nansum(values, axis=-1), axis=1, keepdims=True)[..., None]  # of each scene and frame
+        shares.append(numpy.nanmax(numpy.nan_to_num(values) / numpy.where(longest > 0, longest, 1), axis=(0, 1, 2)))
+    return list(numpy.flatnonzero(numpy.max(shares, axis=0) >= 0.01))
+
+
+def stacked(r, scene, chart, title, x_label, names, heavy, costs):
+    """Horizontal bars, a configuration each, parts of one name in one colour; costs (configuration, name); `heavy`: what is told by itself."""
     shown = [c for c in range(len(r.configurations)) if numpy.isfinite(costs[c]).any()]
     if not shown or not numpy.nansum(costs) > 0:
         return None
-    used = [p for p in range(len(r.passes)) if numpy.nansum(costs[:, p]) > 0]  # colours are those of the study's list, the same in every chart
+    total = numpy.nansum(costs, axis=1)
+    parts = {names[p]: (costs[:, p], color_of(place)) for place, p in enumerate(heavy) if numpy.nansum(costs[:, p]) > 0}
+    rest = total - sum(numpy.nan_to_num(values) for values, _ in parts.values())
+    if rest.max() > 1e-6 * total.max():
+        parts["the rest"] = rest, "#bbbbbb"
     d = Drawing(slug(r.scenes[scene], chart), title, height=0.5 + 0.17 * len(shown))
-    axes, total = d.axes, numpy.nansum(costs, axis=1)
+    axes = d.axes
     for row, c in enumerate(shown):
         start = 0.0
-        for p in used:
-            value = costs[c, p]
-            if not value > 0:
+        for name, (values, color) in parts.items():
+            if not values[c] > 0:
                 continue
-            (bar,) = axes.barh(row, value, left=start, height=0.72, color=color_of(p), edgecolor="white", linewidth=0.3)
-            d.hint(bar, f"{r.configurations[c].label}, {r.passes[p]}: {number(value)} of {number(total[c])}")
-            start += value
+            (bar,) = axes.barh(row, values[c], left=start, height=0.72, color=color, edgecolor="white", linewidth=0.3)
+            d.hint(bar, f"{r.configurations[c].label}, {name}: {number(values[c])} of {number(total[c])}")
+            start += values[c]
         axes.text(start, row, " " + number(start, 3), va="center", fontsize=6, color=INK)
     axes.set_yticks(range(len(shown)), [r.configurations[c].label for c in shown])
     axes.set(ylim=(len(shown) - 0.4, -0.6), xlabel=x_label)
     axes.set_xlim(0, 1.14 * max(total[shown]))
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)
-    d.legend([Patch(color=color_of(p)) for p in used], [r.passes[p] for p in used])
+    d.legend([Patch(color=color) for _, color in parts.values()], list(parts))
     return d
+
+
+def by_pass(r, scene, chart, title, x_label, costs):
+    rays = numpy.nansum(r.pass_rays, axis=-1)
+    return stacked(r, scene, chart, title, x_label, r.passes, weighty(r.pass_ms, rays), costs)
 
 
 def time_by_pass(r, scene):
     f = shown_frame(r)
-    return stacked(r, scene, "time_by_pass", f"Time by pass{at_frame(r, f)}", f"mean time (ms, {devices(r)})", r.pass_ms[scene, :, f])
+    return by_pass(r, scene, "time_by_pass", f"Time by pass{at_frame(r, f)}", f"mean time (ms, {devices(r)})", r.pass_ms[scene, :, f])
 
 
 def rays_by_pass(r, scene):
     f = shown_frame(r)
-    return stacked(r, scene, "rays_by_pass", f"Rays by pass{at_frame(r, f)}", "rays a pixel", numpy.nansum(r.pass_rays[scene, :, f], axis=-1))
+    return by_pass(r, scene, "rays_by_pass", f"Rays by pass{at_frame(r, f)}", "rays a pixel", numpy.nansum(r.pass_rays[scene, :, f], axis=-1))
 
 
 def rays_by_purpose(r, scene):
     f = shown_frame(r)
-    costs = numpy.nansum(r.pass_rays[scene, :, f], axis=1)
-    used = [p for p in range(len(r.purposes)) if costs[:, p].sum() > 0]
-    if len(used) < 2:
-        return None
-    by_purpose = type("ByPurpose", (), {"scenes": r.scenes, "configurations": r.configurations, "passes": r.purposes})
-    return stacked(by_purpose, scene, "rays_by_purpose", f"Rays by purpose{at_frame(r, f)}", "rays a pixel", costs)
+    costs = numpy.nansum(r.pass_rays, axis=3)
+    return stacked(r, scene, "rays_by_purpose", f"Rays by purpose{at_frame(r, f)}", "rays a pixel", r.purposes, weighty(costs), costs[scene, :, f])
 
 
 def draw_forest(d, names, values, halves, good, about, x_label, reference, log=False):
@@ -299,7 +320,7 @@ def stability_matrix(r, metric):
             (cell,) = axes.bar(s, 1, width=1, bottom=row - 0.5, color=OUTCOMES[kind][1], edgecolor="white", linewidth=1)
             label = r.configurations[rows[row]].label
             d.hint(cell, f"{label}, {r.scenes[s]}: {with_interval(mean, half)}; {OUTCOMES[kind][0]}")
-            axes.text(s, row, number(mean, 3), ha="center", va="center", fontsize=6.5, color=INK, fontweight="bold" if row == best else "normal")
+            axes.text(s, row, number(mean, 3), ha="center", va="center", fontsize=6.5, color=INK, fontweight="bold" if mean == column[best][0] else "normal")
     axes.set_xticks(range(len(r.scenes)), r.scenes, rotation=0 if len(r.scenes) <= 4 else 35, ha="center" if len(r.scenes) <= 4 else "left")
     axes.xaxis.tick_top()
     axes.set_yticks(range(len(rows)), [r.configurations[c].label for c in rows])

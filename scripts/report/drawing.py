@@ -2,6 +2,7 @@
 """What all charts share: one figure, drawn once, as SVG for the page and as PDF for a paper."""
 import html
 import io
+import logging
 import pathlib
 import re
 
@@ -11,6 +12,8 @@ matplotlib.use("agg")  # no display is ever touched
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
 from matplotlib import colors, ticker  # noqa: E402
+
+logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)  # a family that isn't there is no news: the next one is taken
 
 MARKERS = ["o", "s", "D", "^", "v", "P", "X"]
 DASHES = ["-", (0, (4, 1.5)), (0, (1, 1.2))]
@@ -27,8 +30,9 @@ def number(value, digits=4):
     if not numpy.isfinite(value):
         return "unknown"
     size = abs(value)
-    if size == 0 or 1e-3 <= size < 1e5:
-        return f"{value:.{digits}g}".replace("-", "−")
+    if size == 0 or 1e-4 <= size < 1e5:
+        text = f"{value:.{digits}g}"
+        return (text if "e" not in text else f"{value:.0f}").replace("-", "−")  # 41234 to 2 digits is 41234
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
     power = "10" + str(int(exponent)).translate(SUPERSCRIPTS)
@@ -44,10 +48,11 @@ def palette():
 
 
 def color_of(index):
-    """Beyond the cycle's end lighter ones of it."""
+    """Beyond the cycle's end lighter ones of it, from elsewhere in it so that neighbours differ."""
     cycle = palette()
-    color = numpy.array(colors.to_rgb(cycle[index % len(cycle)]))
-    return tuple(color + (1 - color) * min(0.45 * (index // len(cycle)), 0.8))
+    turn = index // len(cycle)
+    color = numpy.array(colors.to_rgb(cycle[(index + 3 * turn) % len(cycle)]))
+    return tuple(color + (1 - color) * min(0.5 * turn, 0.8))
 
 
 def curve_style(index, variant=0):
@@ -55,7 +60,9 @@ def curve_style(index, variant=0):
     of its own) keep colour and marker, and grow lighter."""
     cycle = palette()
     color = numpy.array(colors.to_rgb(cycle[index % len(cycle)]))
-    return {"color": tuple(color + (1 - color) * min(0.25 * variant, 0.65)), "marker": MARKERS[index % len(MARKERS)],
+    marker = MARKERS[index % len(MARKERS)]
+    return {"color": tuple(color + (1 - color) * min(0.25 * variant, 0.65)), "marker": marker,
+            "markersize": plt.rcParams["lines.markersize"] * (1.35 if marker in "^vPX" else 1.0),  # of one weight to the eye
             "linestyle": DASHES[(index // len(cycle) + variant) % len(DASHES)]}
 
 
