@@ -360,19 +360,19 @@ TEST_F(StudyTest, RowsComeBackAsTheyWere) {
 // If this fails, a killed study cannot go on, or counts half a row.
 TEST_F(StudyTest, ResultsSurviveACutLine) {
     const Path file = folder / "results.jsonl";
-    { ResultFile(file).add({exampleRow("one", 0, 1), exampleRow("one", 1, 2)}); }
+    { ResultFile(file).add(linesOf({exampleRow("one", 0, 1), exampleRow("one", 1, 2)})); }
     const std::string whole = readText(file);
     const std::string line = toJson(exampleRow("two", 0, 3)).dump();
     for (const std::size_t length : {std::size_t(1), line.size() / 2, line.size()}) {  // the last: only the line feed is missing
         std::ofstream(file, std::ios::app) << line.substr(0, length);
         EXPECT_EQ(readResults(folder).size(), 2u);
-        { ResultFile(file).add({exampleRow("three", 0, 4)}); }
+        { ResultFile(file).add(linesOf({exampleRow("three", 0, 4)})); }
         const std::vector<ResultRow> rows = readResults(folder);
         ASSERT_EQ(rows.size(), 3u);
         EXPECT_EQ(rows[2].run, "three");
         writeFile(file, whole);
     }
-    { ResultFile(folder / "results.1-of-2.jsonl").add({exampleRow("four", 0, 5), exampleRow("one", 1, 7)}); }
+    { ResultFile(folder / "results.1-of-2.jsonl").add(linesOf({exampleRow("four", 0, 5), exampleRow("one", 1, 7)})); }
     const std::vector<ResultRow> rows = readResults(folder);
     EXPECT_EQ(rows.size(), 3u) << "shards' files are read together, and no frame counts twice";
 

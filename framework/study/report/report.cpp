@@ -108,7 +108,9 @@ private:
         for (const std::string& metric : study_.metrics)
             html +=
                 fmt::format("<li><b>{}</b>: {}</li>\n", escapeHtml(metric), escapeHtml(isTemporal(metric) ? temporalMetricAbout(metric) : metricAbout(metric)));
-        if (study_.maskSwitched) html += "<li><b>.switched</b>: only where objects are seen that take another level at frame 0 or later</li>\n";
+        for (const Mask& mask : study_.masks)
+            html += fmt::format("<li><b>.{}</b>: only where {}</li>\n", escapeHtml(mask.name),
+                                mask.graph ? "the study's mask isn't 0" : "objects are seen that take another level at frame 0 or later");
         if (study_.referenceFinest)
             html += "<li><b>.finest</b>: against the scene at its finest levels, so that what a coarser level loses counts too</li>\n";
         return html + "</ul>\n";
