@@ -9,6 +9,7 @@ import numpy
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from .results import configuration_of
 from .drawing import GREY, INK, Drawing, color_of, curve_style, number, scale, with_interval
 
 
@@ -253,19 +254,18 @@ def rays_by_purpose(r, scene):
     return stacked(r, scene, "rays_by_purpose", f"Rays by purpose{at_frame(r, f)}", "rays a pixel", r.purposes, weighty(costs), costs[scene, :, f])
 
 
-def draw_forest(d, names, values, halves, good, about, x_label, reference, log=False):
-    """Intervals one below the other, `reference` a line through all."""
+def draw_forest(d, names, spans, good, about, x_label, reference, log=False):
+    """Intervals (middle, low, high) one below the other, `reference` a line through all."""
     axes = d.axes
-    ends = [value for v, h in zip(values, halves) for value in (v, v - h, v + h)] + [reference]
-    low = scale(axes.xaxis, ends, log)[0]
+    first = scale(axes.xaxis, [value for span in spans for value in span] + [reference], log)[0]
     axes.axvline(reference, color=INK, linewidth=0.7, zorder=1)
-    for row, (value, half) in enumerate(zip(values, halves)):
-        if not numpy.isfinite(value) or (log and value <= 0):
+    for row, (middle, low, high) in enumerate(spans):
+        if not numpy.isfinite(middle) or (log and middle <= 0):
             continue
         color = color_of(0) if good[row] else color_of(1)
-        if numpy.isfinite(half):
-            axes.plot([max(value - half, low) if log else value - half, value + half], [row, row], color=color, linewidth=1.1)
-        (mark,) = axes.plot([value], [row], marker="o" if good[row] else "D", color=color, markersize=3.5, linestyle="none")
+        if numpy.isfinite([low, high]).all():
+            axes.plot([max(low, first) if log else low, high], [row, row], color=color, linewidth=1.1)
+        (mark,) = axes.plot([middle], [row], marker="o" if good[row] else "D", color=color, markersize=3.5, linestyle="none")
         d.hint(mark, about[row])
     axes.set_yticks(range(len(names)), names)
     axes.set(ylim=(len(names) - 0.4, -0.6), xlabel=x_label)
@@ -274,20 +274,82 @@ def draw_forest(d, names, values, halves, good, about, x_label, reference, log=F
     return d
 
 
-def paired(r, scene, metric):
-    """Errors as multiples of the first configuration's, seed by seed."""
-    f, name = shown_frame(r, metric), metric["name"]
-    ratios = r.against_first[name][scene, :, f]
-    shown = numpy.flatnonzero(numpy.isfinite(ratios[:, 0]))
-    if not metric["fromZero"] or shown.size == 0:
+def baseline_of(found):
+    return configuration_of(found["baseline"]).label
+
+
+def span_text(span):
+    middle, low, high = span
+    return number(middle) + (f" ({number(low, 3)} to {number(high, 3)})" if numpy.isfinite([low, high]).all() else "")
+
+
+def draw_ratios(r, scene, metric, chart, found, names, title, x_label):
+    """`found`: places in the arrays of comparisons."""
+    spans = [r.comparison[metric["name"]][at] for at in found]
+    about = [f"{label}: {span_text(span)} times the {metric['name']} of {baseline_of(r.compared[at])}" for label, span, at in zip(names, spans, found)]
+    d = Drawing(slug(r.scenes[scene], chart, metric["name"]), title, height=0.5 + 0.16 * len(found))
+    # Told apart from the baseline for the worse or not: nothing is blamed whose interval holds 1.
+    draw_forest(d, names, spans, [not low > 1 for _, low, _ in spans], about, x_label, 1.0, log=True)
+    paired = all(r.compared[at]["rays"]["paired"] for at in found)
+    d.note = f"95 % intervals{', seed by seed' if paired else ''}. Diamonds: worse beyond the interval."
+    return d
+
+
+def comparisons_at(r, scene, metric, ablation):
+    """Places of what is compared in the shown frame, and has a ratio."""
+    f = shown_frame(r, metric)
+    return [at for at, found in r.compared.items()
+            if at[0] == scene and at[2] == f and (found["without"] is not None) == ablation and numpy.isfinite(r.comparison[metric["name"]][at][0])]
+
+
+def comparison(r, scene, metric):
+    """Errors as multiples of the baseline's."""
+    found = comparisons_at(r, scene, metric, False)
+    if not metric["fromZero"] or not found:
         return None
-    first = r.labels[0]
-    d = Drawing(slug(r.scenes[scene], "paired", name), f"{name} against that of {first}, seed by seed{at_frame(r, f)}", height=0.5 + 0.16 * len(shown))
-    labels = [r.configurations[c].label for c in shown]
-    values, halves = ratios[shown, 0], ratios[shown, 1]
-    about = [f"{label}: {with_interval(v, h)} times the {name} of {first}" for label, v, h in zip(labels, values, halves)]
-    draw_forest(d, labels, values, halves, [v - h <= 1 for v, h in zip(values, halves)], about, f"{name} ÷ that of {first}", 1.0, log=True)
-    d.note = "95 % intervals of the ratio of means over paired seeds. Diamonds: worse beyond the interval."
+    baselines = dict.fromkeys(baseline_of(r.compared[at]) for at in found)
+    against = next(iter(baselines)) if len(baselines) == 1 else r.summary["baseline"]
+    names = [r.labels[at[1]] for at in found]
+    return draw_ratios(r, scene, metric, "comparison", found, names, f"{metric['name']} against {against}{at_frame(r, found[0][2])}", f"{metric['name']} ÷ that of {against}")
+
+
+def ablation(r, scene, metric):
+    """What each part of a technique is worth: the error without it as a multiple of the whole's, the dearest first."""
+    found = comparisons_at(r, scene, metric, True)
+    if not metric["fromZero"] or not found:
+        return None
+    found.sort(key=lambda at: -r.comparison[metric["name"]][at][0])
+    wholes = dict.fromkeys(baseline_of(r.compared[at]) for at in found)
+    names = [" and ".join(r.compared[at]["without"]) + (f" ({baseline_of(r.compared[at])})" if len(wholes) > 1 else "") for at in found]
+    whole = next(iter(wholes)) if len(wholes) == 1 else "the whole"
+    return draw_ratios(r, scene, metric, "ablation", found, names, f"{metric['name']} of {whole} without{at_frame(r, found[0][2])}", f"{metric['name']} without ÷ with it")
+
+
+def bias_variance(r, scene, metric):
+    """The error of one run as what no number of runs takes away, and the rest."""
+    f = shown_frame(r)
+    found = [(configuration_of(parts), parts) for parts in r.summary["decompositions"]
+             if (parts["scene"], parts["frame"], parts["metric"]) == (r.scenes[scene], r.frames[f], metric["name"])]
+    found = [(configuration, parts) for configuration, parts in found if configuration in r.configurations]
+    if not found:
+        return None
+    d = Drawing(slug(r.scenes[scene], "bias_variance", metric["name"]), f"Bias and variance of {metric['name']}{at_frame(r, f)}", height=0.5 + 0.24 * len(found))
+    axes = d.axes
+    for row, (configuration, parts) in enumerate(found):
+        for shift, (key, text, place) in zip((-0.19, 0.19), (("squaredBias", "squared bias", 1), ("variance", "variance of a run", 0))):
+            mean, half = parts[key]["mean"], parts[key]["halfWidth"]
+            mean, half = (numpy.nan if value is None else value for value in (mean, half))
+            (bar,) = axes.barh(row + shift, mean, height=0.36, color=color_of(place))
+            d.hint(bar, f"{configuration.label}, {text}: {with_interval(mean, half)}")
+            if numpy.isfinite(half):
+                axes.plot([mean - half, mean + half], [row + shift] * 2, color=INK, linewidth=0.7)
+    axes.axvline(0, color=INK, linewidth=0.6)
+    axes.set_yticks(range(len(found)), [configuration.label for configuration, _ in found])
+    axes.set(ylim=(len(found) - 0.4, -0.6), xlabel=with_unit(metric))
+    axes.grid(axis="y", visible=False)
+    axes.tick_params(axis="y", length=0)
+    d.legend([Patch(color=color_of(1)), Patch(color=color_of(0))], ["squared bias", "variance of a run"])
+    d.note = "Their sum is the mean error of a run; the squared bias may fall below 0 where there is none. Lines: 95 % (jackknife over seeds)."
     return d
 
 
@@ -367,13 +429,14 @@ def energy(r, scene):
         return None
     d = Drawing(slug(r.scenes[scene], "energy"), "Energy against the reference, 95 % intervals", height=0.5 + 0.16 * len(cells))
     names = [ensemble_label(r, c, f) for c, f, _ in cells]
-    values = [100 * r.difference[scene, c, f] for c, f, _ in cells]
+    middles = [100 * r.difference[scene, c, f] for c, f, _ in cells]
     halves = [100 * r.half_width[scene, c, f] for c, f, _ in cells]
     band = 100 * r.summary["halfWidth"]
-    about = [f"{name}: {number(value)} ± {number(half, 2)} %, {cell['verdict']}" for name, value, half, (*_, cell) in zip(names, values, halves, cells)]
+    about = [f"{name}: {number(value)} ± {number(half, 2)} %, {cell['verdict']}" for name, value, half, (*_, cell) in zip(names, middles, halves, cells)]
     axes = d.axes
     axes.axvspan(-band, band, color="#e4eff7", linewidth=0, zorder=0)
-    draw_forest(d, names, values, halves, [cell["verdict"] == "unbiased" for *_, cell in cells], about, "difference of mean luminance (%)", 0.0)
+    spans = [(middle, middle - half, middle + half) for middle, half in zip(middles, halves)]
+    draw_forest(d, names, spans, [cell["verdict"] == "unbiased" for *_, cell in cells], about, "difference of mean luminance (%)", 0.0)
     low, high = axes.get_xlim()
     axes.set_xlim(min(low, -1.1 * band), max(high, 1.1 * band))
     d.note = "Band: the half-width that was asked for. Diamonds: not judged unbiased."
@@ -477,7 +540,9 @@ ERROR = {
     "rays_by_pass": Chart(rays_by_pass),
     "rays_by_purpose": Chart(rays_by_purpose),
     "stability": Chart(stability, "metric"),
-    "paired": Chart(paired, "metric"),
+    "comparison": Chart(comparison, "metric"),
+    "ablation": Chart(ablation, "metric"),
+    "bias_variance": Chart(bias_variance, "metric"),
     "stability_matrix": Chart(stability_matrix, "study"),
 }
 ENSEMBLE = {"energy": Chart(energy), "blocks": Chart(blocks), "convergence": Chart(convergence), "power": Chart(power)}

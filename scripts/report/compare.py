@@ -41,9 +41,9 @@ def columns(a, b):
         yield "energy against the reference", of(a, lambda r: r.difference, lambda r: r.half_width), of(b, lambda r: r.difference, lambda r: r.half_width)
 
 
-def comparison(a, b, scene, pairs, names):
+def comparison(a, b, scene, pairs):
     compared = list(columns(a, b))
-    head = ["technique", "frame"] + [text for name, *_ in compared for text in (f"{name}: {names[0]}", names[1], "ratio")] + (["same image"] if a.kind == "error" else [])
+    head = ["technique", "frame"] + [text for name, *_ in compared for text in (f"{name}: A", "B", "ratio")] + (["same image"] if a.kind == "error" else [])
     rows = []
     for left, right in pairs:
         if left[0] != scene:
@@ -60,21 +60,46 @@ def comparison(a, b, scene, pairs, names):
     return table(f"compare.{charts.slug(a.scenes[scene])}", head, rows, note)
 
 
+def share_axes(one, two):
+    """The same limits, so that what is moved is seen."""
+    for axis in ("xaxis", "yaxis"):
+        mine, other = getattr(one.axes, axis), getattr(two.axes, axis)
+        if mine.get_scale() == other.get_scale():
+            low, high = zip(mine.get_view_interval(), other.get_view_interval())
+            for d in (one, two):
+                d.axes.set(**{f"{mine.axis_name}lim": (min(low), max(high))})
+
+
+def side_by_side(a, b, s, other, figures):
+    """The charts of A that B has too, for a scene's index in both."""
+    known = charts.ERROR if a.kind == "error" else charts.ENSEMBLE
+    for name in page.chart_names(a):
+        chart = known[name]
+        if chart.of == "study":
+            continue
+        for metric in a.metrics if chart.of == "metric" else [None]:
+            if metric and metric["name"] not in b.error:
+                continue
+            pair = [chart.draw(r, place, *([metric] if metric else [])) for r, place in ((a, s), (b, other))]
+            if None in pair:
+                continue
+            if name in ("error_vs_time", "error_vs_rays", "frontier"):
+                share_axes(*pair)
+            yield [figures.finish(drawing) for drawing in pair]
+
+
 def page_of(a, b):
     if a.kind != b.kind:
         raise Missing(f"{a.folder} is of kind {a.kind} and {b.folder} of kind {b.kind}: they cannot be compared")
     pairs = list(common(a, b))
     if not pairs:
         raise Missing(f"{a.folder} and {b.folder} have no scene, technique and frame in common")
-    names = [f"{place} ({r.folder.resolve().name})" for place, r in zip("AB", (a, b))]
     figures, sections = page.Figures(None), []
     for s in dict.fromkeys(left[0] for left, _ in pairs):
         other = b.scene(a.scenes[s])
-        drawn = [page.drawings_of(r, place, page.chart_names(a), figures) for r, place in ((a, s), (b, other))]
-        by_slug = [{d.slug: d for d in side} for side in drawn]
-        both = [([by_slug[0][slug]], [by_slug[1][slug]]) for slug in by_slug[0] if slug in by_slug[1]]
-        sections.append(SimpleNamespace(id=charts.slug(a.scenes[s]), name=a.scenes[s], tables=[comparison(a, b, s, pairs, names)], pairs=both))
+        both = list(side_by_side(a, b, s, other, figures))
+        sections.append(SimpleNamespace(id=charts.slug(a.scenes[s]), name=a.scenes[s], tables=[comparison(a, b, s, pairs)], pairs=both))
     alone = sorted(set(a.labels) ^ set(b.labels))
-    sides = [SimpleNamespace(name=f"{name}: {r.name}", facts=page.facts(r)) for name, r in zip(names, (a, b))]
+    sides = [SimpleNamespace(name=f"{place}: {r.folder.resolve().name}", facts=page.facts(r)) for place, r in zip("AB", (a, b))]
     return page.render("compare.html", title=f"{a.name}: {a.folder.resolve().name} and {b.folder.resolve().name}", sides=sides, sections=sections,
                        only=f"In one of them alone: {listed(alone)}." if alone else "")

@@ -80,7 +80,7 @@ def scale(axis, values, log):
         limits = 10 ** (low - margin), 10 ** (high + margin)
         decades = high - low
         subs = (1, 1.5, 2, 3, 4, 5, 7) if decades < 0.7 else (1, 2, 3, 5) if decades < 1 else (1, 2, 5) if decades < 2.2 else (1,)
-        axis.set_major_locator(ticker.LogLocator(subs=subs, numticks=9))
+        axis.set_major_locator(ticker.LogLocator(subs=subs, numticks=9) if decades > 0.4 else ticker.MaxNLocator(5))
         axis.set_minor_locator(ticker.NullLocator())
     else:
         margin = 0.06 * ((values.max() - values.min()) or abs(values.max()) or 1)

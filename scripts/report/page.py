@@ -9,7 +9,8 @@ import numpy
 from markupsafe import Markup
 
 from . import charts, images
-from .drawing import number, with_interval
+from .drawing import number
+from .results import configuration_of
 
 HERE = pathlib.Path(__file__).parent
 
@@ -82,8 +83,8 @@ def reading_error(r):
     if any("llvmpipe" in device for device in r.summary["devices"]):
         sentences.append("Times on a CPU driver say nothing of a GPU; rays and ratios do.")
     sentences += [f"{m['metric']}: {m['about']}." for m in {m["metric"]: m for m in r.metrics}.values()]
-    if any(m["switched"] for m in r.metrics):
-        sentences.append(".switched: only where objects are seen that take another level at frame 0 or later.")
+    for mask in dict.fromkeys(m["mask"] for m in r.metrics if m["mask"]):
+        sentences.append(f".{mask}: only where " + ("objects are seen that take another level at frame 0 or later." if mask == "switched" else "the study's mask of that name isn't 0."))
     if any(m["finest"] for m in r.metrics):
         sentences.append(".finest: against the scene at its finest levels, so that what a coarser level loses counts too.")
     return sentences
@@ -104,22 +105,54 @@ def error_table(r, s):
     return table(f"table.{charts.slug(r.scenes[s])}", head, rows, f"Noise of the reference itself, taken out above: {taken}." if taken else "")
 
 
-def paired_table(r, s):
+def comparison_tables(r, s):
+    """Against the baseline, and of each technique without its parts."""
+    tables = []
+    for ablation in (False, True):
+        rows, baselines = [], {}
+        for at, found in r.compared.items():
+            if at[0] != s or (found["without"] is not None) != ablation:
+                continue
+            baselines[charts.baseline_of(found)] = None
+            label = " and ".join(found["without"]) if ablation else r.labels[at[1]]
+            row = [cell(label), cell(str(found["frame"])), cell(charts.baseline_of(found), kind="text")]
+            for difference in [found["metrics"].get(m["name"]) for m in r.metrics] + [found["ms"], found["rays"]]:
+                if difference is None:
+                    row.append(cell())
+                    continue
+                span = [numpy.nan if difference[key] is None else difference[key] for key in ("middle", "low", "high")]
+                row.append(cell(("× " if difference["ratio"] else "") + charts.span_text(span), span[0]))
+            rows.append(row)
+        if rows:
+            title = "What each part is worth" if ablation else f"Against {next(iter(baselines)) if len(baselines) == 1 else r.summary['baseline']}"
+            tables.append(table(f"{'ablation' if ablation else 'comparison'}.{charts.slug(r.scenes[s])}", ["without" if ablation else "technique", "frame", "held against"]
+                                + [m["name"] for m in r.metrics] + ["ms", "rays"], rows,
+                                "×: geometric means of ratios with their 95 % intervals" + (", seed by seed" if all(found["rays"]["paired"] for found in r.compared.values()) else "")
+                                + "; else, where some values aren't positive, differences.", title))
+    return tables
+
+
+def exponent_table(r, s):
     rows = []
-    for place, c, f, _ in r.measured():
-        ratios = {m["name"]: r.against_first[m["name"]][s, c, f] for m in r.metrics}
-        if place == s and any(numpy.isfinite(ratio[0]) for ratio in ratios.values()):
-            rows.append([cell(r.labels[c]), cell(str(r.frames[f]))] + [measured(*ratio) for ratio in ratios.values()])
-    if not rows:
-        return None
-    return table(f"paired.{charts.slug(r.scenes[s])}", ["technique", "frame"] + [m["name"] for m in r.metrics], rows,
-                 "Ratios of means over the seeds that both have drawn, with 95 % intervals of differences taken seed by seed (delta method).",
-                 f"As multiples of {configuration_of_first(r)}")
+    for found in r.summary["exponents"]:
+        configuration = configuration_of(found)
+        if found["scene"] == r.scenes[s] and configuration in r.configurations:
+            e = found["exponent"]
+            rows.append([cell(configuration.curve if found["over"] else configuration.label), cell(found["over"].split(".", 1)[-1] or "frames", kind="text"), cell(found["metric"], kind="text"),
+                         measured(*(numpy.nan if e[key] is None else e[key] for key in ("mean", "halfWidth")))])
+    return [table(f"exponents.{charts.slug(r.scenes[s])}", ["technique", "over", "metric", "exponent"], rows,
+                  "p of error ~ n^p: −1 of squared errors of independent samples, nearer to 0 where frames share history or a bias stays.", "How errors fall")] if rows else []
 
 
-def configuration_of_first(r):
-    from .results import configuration_of
-    return configuration_of(r.summary["cells"][0]).label
+def budget_table(r, s):
+    rows = []
+    for place, c, f, found in r.measured():
+        if place == s and "budget" in found:
+            b = found["budget"]
+            took = r.ms[s, c, f] if r.summary["equal"] == "ms" else r.rays[s, c, f]
+            rows.append([cell(r.labels[c]), cell(str(r.frames[f])), cell(number(b["given"]), b["given"]), cell(number(b["reached"]), b["reached"]), cell(number(took), took),
+                         cell("" if b["inRange"] else "out of its knob's range", kind="text")])
+    return [table(f"budget.{charts.slug(r.scenes[s])}", ["technique", "frame", f"given ({r.summary['equal']})", "when chosen", "measured", ""], rows, title="Equal budgets")] if rows else []
 
 
 # Ensembles.
@@ -175,8 +208,9 @@ class Figures:
 
     def draw(self, chart, *arguments):
         drawing = chart(*arguments)
-        if drawing is None:
-            return []
+        return [] if drawing is None else self.finish(drawing)
+
+    def finish(self, drawing):
         svg = Markup(drawing.svg())
         if self.folder:
             drawing.save_pdf(self.folder)
@@ -205,7 +239,7 @@ def section(r, s, figures):
     found = any(place == s for place, *_ in r.measured())
     if not found:
         return SimpleNamespace(id=charts.slug(r.scenes[s]), name=r.scenes[s], drawings=[], tables=[], empty="Nothing measured yet.")
-    tables = [t for t in (error_table(r, s), paired_table(r, s)) if t] if r.kind == "error" else ensemble_tables(r, s)
+    tables = [error_table(r, s)] + budget_table(r, s) + comparison_tables(r, s) + exponent_table(r, s) if r.kind == "error" else ensemble_tables(r, s)
     return SimpleNamespace(id=charts.slug(r.scenes[s]), name=r.scenes[s], drawings=drawings_of(r, s, chart_names(r), figures), tables=tables, empty="")
 
 

@@ -163,7 +163,16 @@ class Results:
         self.seeds = self._empty(seeds)
         self.error, self.half_width = {name: self._empty() for name in names}, {name: self._empty() for name in names}
         self.values = {name: self._empty(seeds) for name in names}
-        self.against_first = {name: self._empty(2) for name in names}
+        self.comparison = {name: self._empty(3) for name in [*names, "ms", "rays"]}
+        self.compared = {}  # by place: the whole member of "comparisons"
+        for found in self.summary["comparisons"]:
+            if configuration_of(found) not in self.configurations:
+                continue
+            at = self.scene(found["scene"]), self.configurations.index(configuration_of(found)), self.frame(found["frame"])
+            self.compared[at] = found
+            for name, difference in [*found["metrics"].items(), ("ms", found["ms"]), ("rays", found["rays"])]:
+                if difference["ratio"]:
+                    self.comparison[name][at] = [number(difference[key]) for key in ("middle", "low", "high")]
         self.sequence = {name: numpy.full((*self.shape[:2], 2), numpy.nan) for name in names}
         for cell in self.summary["sequences"]:
             if configuration_of(cell) in self.configurations:
@@ -187,8 +196,6 @@ class Results:
                 self.error[name][at] = number(found["mean"])
                 self.half_width[name][at] = number(found["halfWidth"])
                 self.values[name][at][:len(found["values"])] = [number(value) for value in found["values"]]
-                if "againstFirst" in found:
-                    self.against_first[name][at] = number(found["againstFirst"]["mean"]), number(found["againstFirst"]["halfWidth"])
 
     def _fill_ensemble(self):
         self.ms, self.rays = self._empty(), self._empty()

@@ -400,9 +400,9 @@ TEST_F(EnsembleFiles, RowsComeBackAndAreJudged) {
             names.push_back("chunk " + std::to_string(i));
             if (i == 7) continue;  // of "plain, spp 2": never made
             for (const int offset : study.measure)
-                file.addLines({toJson(rowFor(names[i], chunks[i], offset, chunks[i].technique == 1 ? 1.1 : 1, random))});
+                file.add(toJson(rowFor(names[i], chunks[i], offset, chunks[i].technique == 1 ? 1.1 : 1, random)).dump() + "\n");
         }
-        file.addLines({toJson(rowFor("of another graph", chunks[3], 0, 1, random))});
+        file.add(toJson(rowFor("of another graph", chunks[3], 0, 1, random)).dump() + "\n");
     }
     const std::vector<EnsembleRow> rows = readEnsembleRows(folder);
     ASSERT_EQ(rows.size(), 2 * (chunks.size() - 1) + 1);

@@ -360,19 +360,19 @@ TEST_F(StudyTest, RowsComeBackAsTheyWere) {
 // If this fails, a killed study cannot go on, or counts half a row.
 TEST_F(StudyTest, ResultsSurviveACutLine) {
     const Path file = folder / "results.jsonl";
-    { ResultFile(file).add({exampleRow("one", 0, 1), exampleRow("one", 1, 2)}); }
+    { ResultFile(file).add(linesOf({exampleRow("one", 0, 1), exampleRow("one", 1, 2)})); }
     const std::string whole = readText(file);
     const std::string line = toJson(exampleRow("two", 0, 3)).dump();
     for (const std::size_t length : {std::size_t(1), line.size() / 2, line.size()}) {  // the last: only the line feed is missing
         std::ofstream(file, std::ios::app) << line.substr(0, length);
         EXPECT_EQ(readResults(folder).size(), 2u);
-        { ResultFile(file).add({exampleRow("three", 0, 4)}); }
+        { ResultFile(file).add(linesOf({exampleRow("three", 0, 4)})); }
         const std::vector<ResultRow> rows = readResults(folder);
         ASSERT_EQ(rows.size(), 3u);
         EXPECT_EQ(rows[2].run, "three");
         writeFile(file, whole);
     }
-    { ResultFile(folder / "results.1-of-2.jsonl").add({exampleRow("four", 0, 5), exampleRow("one", 1, 7)}); }
+    { ResultFile(folder / "results.1-of-2.jsonl").add(linesOf({exampleRow("four", 0, 5), exampleRow("one", 1, 7)})); }
     const std::vector<ResultRow> rows = readResults(folder);
     EXPECT_EQ(rows.size(), 3u) << "shards' files are read together, and no frame counts twice";
 
@@ -429,7 +429,7 @@ TEST_F(StudyTest, SummariesCountWhatIsThere) {
     EXPECT_EQ(cell["metrics"]["mse"]["halfWidth"], summary.cells[0].metrics.at("mse").halfWidth);
     EXPECT_EQ(cell["passes"]["trace"]["rays"], (nlohmann::ordered_json{{"nee", 50}, {"primary", 100}}));
     EXPECT_EQ(json["cells"][1]["metrics"]["mse"]["againstStart"]["mean"], 3) << "2 and 2 against 1 and 1/3";
-    EXPECT_FALSE(cell["metrics"]["mse"].contains("againstFirst")) << "seeds are not paired";
+    EXPECT_EQ(json["baseline"], "plain");
     ASSERT_EQ(json["sequences"].size(), 2u);
     EXPECT_NEAR(json["sequences"][0]["metrics"]["mse"]["mean"].get<double>(), (1.5 + (1.0 / 3 + 2) / 2) / 2, 1e-12);
 }
@@ -449,11 +449,17 @@ TEST_F(StudyTest, PairedSeedsGiveRatiosSeedBySeed) {
         rows.back().seed = runs[i].seed;
     }
     const nlohmann::ordered_json json = summaryJson(study, summarize(study, runs, names, rows));
-    const auto& ratio = json["cells"][1]["metrics"]["mse"]["againstFirst"];
-    EXPECT_EQ(ratio["mean"], 0.5) << "of seeds 7 and 12 alone";
-    EXPECT_NEAR(ratio["halfWidth"].get<double>(), 0, 1e-12) << "each seed says the same, however much they differ";
-    EXPECT_EQ(json["cells"][0]["image"], imageFile(study, runs[0], "run 0").string());
-    EXPECT_FALSE(json["cells"][0]["metrics"]["mse"].contains("againstFirst"));
+    ASSERT_EQ(json["comparisons"].size(), 1u);
+    const auto& comparison = json["comparisons"][0];
+    EXPECT_EQ(comparison["technique"], "half");
+    EXPECT_EQ(comparison["baseline"]["technique"], "plain");
+    EXPECT_TRUE(comparison["without"].is_null());
+    const auto& ratio = comparison["metrics"]["mse"];
+    EXPECT_TRUE(ratio["paired"]);
+    EXPECT_NEAR(ratio["middle"].get<double>(), 0.5, 1e-12) << "of seeds 7 and 12 alone";
+    EXPECT_NEAR(ratio["high"].get<double>() - ratio["low"].get<double>(), 0, 1e-12) << "each seed says the same, however much they differ";
+    EXPECT_EQ(comparison["rays"]["middle"], 1);
+    EXPECT_EQ(json["cells"][0]["image"], shownImageFile(study, runs[0], "run 0").string());
 }
 
 // If this fails, rays a pixel of one size are counted by the pixels of another.

@@ -53,7 +53,7 @@ class ReportTest(unittest.TestCase):
         cls.root = pathlib.Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.root)
         cls.folder = cls.root / "error"
-        cls.rows = synthetic.error_study(cls.folder, ["error_vs_time", "time_by_pass", "stability_matrix", "stability"])
+        cls.rows = synthetic.error_study(cls.folder, ["error_vs_time", "time_by_pass", "stability_matrix", "stability", "ablation"])
         assert run([str(cls.folder), "--quiet"]) == 0
         cls.page = (cls.folder / "report.html").read_text()
 
@@ -91,6 +91,19 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(r.pass_rays[at][r.passes.index("trace"), r.purposes.index("nee")], 4)
         self.assertEqual(len(r.rows()), len(self.rows) - 1, "neither a cut line nor another version")
         numpy.testing.assert_array_equal(r.image(1, 2), synthetic.image_of("hall", 2).astype(numpy.float16))
+
+    def test_comparisons(self):
+        tables = Tables(self.page).tables
+        head, *rows = tables["comparison.box"]
+        self.assertEqual({row[0][0] for row in rows}, {"path tracing, spp 4", "reuse"})
+        at = [text for text, _ in head].index("relmse")
+        for row in rows:
+            index, frame = {"path tracing, spp 4": 1, "reuse": 2}[row[0][0]], int(row[1][0])
+            of = lambda i: numpy.mean([synthetic.error_value("relmse", "box", i, frame, s) for s in synthetic.SEEDS])  # noqa: B023,E731
+            self.assertAlmostEqual(float(row[at][1]), of(index) / of(0), delta=1e-12)
+        self.assertEqual({row[0][0] for row in tables["ablation.box"][1:]}, {"spatial and temporal.cap"})
+        self.assertEqual(tables["exponents.box"][1][-1], ("−0.98 ± 0.03", "-0.98"))
+        self.assertNotIn("exponents.hall", tables)
 
     def test_page_stands_alone(self):
         for part in ("<svg", "a &lt; b", "slow &amp; poor", "Stability by case: tflip", "Stability: relmse against that of frame -1", "Time by pass, frame 0", 'id="images"'):

@@ -50,7 +50,7 @@ def write_exr(path, image, compression=3, kind=numpy.float16):
 
 def metric(name, **more):
     return {"name": name, "metric": name.split(".")[0], "unit": "", "fromZero": True, "about": f"what {name} is", "noiseFree": name == "relmse", "temporal": False,
-            "switched": False, "finest": False, **more}
+            "mask": "", "finest": False, **more}
 
 
 def head(kind, scenes, techniques, frames, metrics=(), charts=(), size=(24, 16)):
@@ -83,7 +83,7 @@ def error_study(folder, charts):
     scenes = ["box", "hall"]
     metrics = [metric("relmse"), metric("bias", fromZero=False), metric("tflip", temporal=True)]
     summary = head("error", scenes, [("path tracing", ["trace.spp"]), ("reuse", []), ("slow & poor", [])], FRAMES, metrics, charts)
-    rows, cells, sequences = [], [], []
+    rows, cells, sequences, comparisons = [], [], [], []
     for scene in scenes:
         write_exr(folder / f"images/{scene}.reference.exr", image_of(scene, None))
         values = {(i, m["name"], f): [error_value(m["name"], scene, i, f, s) - (0.3 if m["name"] == "bias" else 0) for s in SEEDS]
@@ -95,8 +95,10 @@ def error_study(folder, charts):
                 ratio = lambda n, base: {"mean": numpy.mean(values[i, n, f]) / numpy.mean(base), "halfWidth": 0.125}  # noqa: B023,E731
                 found = {n: {**estimate(values[i, n, f]), "values": values[i, n, f], "againstStart": ratio(n, values[i, n, 0 if n == "tflip" else -1])} for n in names}
                 if i > 0:
-                    for n in names:
-                        found[n]["againstFirst"] = ratio(n, values[0, n, f])
+                    span = lambda value: {"ratio": bool(value > 0), "paired": True, "middle": value, "low": value - 0.05, "high": value + 0.05}  # noqa: E731
+                    comparisons.append({"scene": scene, "technique": technique, "knobs": knobs, "frame": f, "baseline": {"technique": "path tracing", "knobs": {"trace.spp": 1}},
+                                        "without": ["spatial", "temporal.cap"] if i == 3 else None, "ms": span(i + 1.0), "rays": span(i + 1.0),
+                                        "metrics": {n: span(ratio(n, values[0, n, f])["mean"]) for n in names}})
                 cell = {"scene": scene, "technique": technique, "knobs": knobs, "frame": f, "seeds": SEEDS, "runs": [f"{scene} {i} {s}" for s in SEEDS],
                         "ms": {"median": float(numpy.median(times)), "fastest": times[0], "slowest": times[-1]}, "rays": {"mean": 24 * 16 * 3.0 * (i + 1), "halfWidth": 0.0},
                         "passes": {"trace": {"ms": 8.0 * (i + 1), "rays": {"primary": 384.0 * (i + 1), "nee": 768.0 * (i + 1)}}, "display": {"ms": 1.5, "rays": {"primary": 0.0}}},
@@ -112,7 +114,11 @@ def error_study(folder, charts):
             sequences.append({"scene": scene, "technique": technique, "knobs": knobs,
                               "metrics": {n: estimate(numpy.mean([values[i, n, f] for f in frames], axis=0)) for n, frames in steps.items()}})
     rows.append({**rows[0], "run": "of another version", "metrics": {"relmse": 1e6}})
-    summary.update(cells=cells, sequences=sequences)
+    here = {"scene": "box", "technique": "path tracing", "knobs": {"trace.spp": 1}, "frame": 0, "metric": "relmse"}
+    summary.update(cells=cells, sequences=sequences, comparisons=comparisons, baseline="path tracing",
+                   exponents=[{**here, "over": "trace.spp", "exponent": {"mean": -0.98, "halfWidth": 0.03}}],
+                   decompositions=[{**here, "squaredBias": {"mean": -0.001, "halfWidth": 0.004}, "variance": {"mean": 0.4, "halfWidth": 0.05}},
+                                   {**here, "technique": "reuse", "knobs": {}, "squaredBias": {"mean": 0.03, "halfWidth": 0.004}, "variance": {"mean": 0.07, "halfWidth": 0.01}}])
     write(folder, summary, rows)
     return rows
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <framework/core/log.h>
 #include <framework/image/exr.h>
 #include <framework/image/png.h>
 #include <framework/study/ensemble/images.h>
@@ -50,28 +49,35 @@ Convergence judgeImages(const Study& study, const EnsembleCell& cell, const Path
 
 }  // namespace
 
-EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard,
-                            const std::function<bool()>& stops) {
+EnsembleSummary runEnsemble(Stage& stage, const Study& study, StudyPlace& place) {
     EnsembleStage runs(stage, study);
+    const Path& out = place.out;
     const std::vector<EnsembleChunk> chunks = expandChunks(study);
     std::vector<std::string> names;
     for (const EnsembleChunk& chunk : chunks) names.push_back(runs.nameOf(chunk));
     const std::set<std::string> finished = finishedChunks(study, readEnsembleRows(out));
     std::vector<std::size_t> todo;
-    for (std::size_t i = 0; i < chunks.size(); ++i)
-        if (shard.holds(i) && !finished.contains(names[i])) todo.push_back(i);
+    Work work{.what = "chunks of runs"};
+    std::size_t series = 0;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        if (i > 0 && !chunks[i].isSeriesOf(chunks[i - 1])) ++series;
+        if (!place.shard.holds(i) || finished.contains(names[i])) continue;
+        todo.push_back(i);
+        work.items.push_back({.group = series});  // one runner serves all of it
+    }
 
     if (!todo.empty()) {
-        log::note("{} of {} chunks of runs to make on {}", todo.size(), chunks.size(), stage.device().name);
-        ResultFile results(file);
-        log::Progress progress("chunks of runs", todo.size());
-        for (const std::size_t i : todo) {
-            if (stops()) break;
-            std::vector<nlohmann::ordered_json> lines;
-            for (const EnsembleRow& row : measure(runs, stage, study, chunks[i], names[i], out / "chunks")) lines.push_back(toJson(row));
-            results.addLines(lines);
-            progress.advance();
-        }
+        ResultFile results(place.file);
+        work.count = fmt::format("{} of {} chunks of runs", todo.size(), chunks.size());
+        work.open = [&] { return stage.workDevice(); };
+        work.make = [&](std::size_t item) {
+            std::string lines;
+            for (const EnsembleRow& row : measure(runs, stage, study, chunks[todo[item]], names[todo[item]], out / "chunks")) lines += toJson(row).dump() + "\n";
+            return lines;
+        };
+        work.take = [&](std::size_t, const std::string& lines) { results.add(lines); };
+        work.stops = place.stops;
+        place.problem = doWork(work, place.jobs);
     }
     EnsembleSummary summary = summarizeEnsemble(study, chunks, names, readEnsembleRows(out));
     for (EnsembleCell& cell : summary.cells)

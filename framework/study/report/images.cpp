@@ -20,13 +20,13 @@ std::string fileName(std::string text) {
 
 }  // namespace
 
-Path imageFile(const Study& study, const StudyRun& run, const std::string& hash) {
+Path shownImageFile(const Study& study, const StudyRun& run, const std::string& hash) {
     const std::string knobs = knobText(run.knobs, run.knobs.size());
     return Path("images") / fileName(fmt::format("{}.{}{}{}.{}.exr", study.scenes[run.scene].name, study.techniques[run.technique].name,
                                                  knobs.empty() ? "" : ".", knobs, hash.substr(0, 8)));
 }
 
-Path referenceImageFile(const Study& study, std::size_t scene) {
+Path shownReferenceFile(const Study& study, std::size_t scene) {
     return Path("images") / fileName(study.scenes[scene].name + ".reference.exr");
 }
 
@@ -39,15 +39,16 @@ Path ensembleReferenceFile(const Study& study, std::size_t scene, int offset) {
 }
 
 bool isShown(const Study& study, const StudyRun& run) {
-    return run.seed == drawnSeed(study, run.technique, run.knobs, study.seeds.front());
+    const std::vector<Setting> varied(run.knobs.begin(), run.knobs.begin() + std::ptrdiff_t(study.techniques[run.technique].vary.size()));
+    return run.seed == drawnSeed(study, run.technique, varied, study.seeds.front());
 }
 
-void keepImage(const Path& out, const Study& study, const StudyRun& run, const std::string& hash, const ImageData& image) {
-    if (isShown(study, run)) writeExr(out / imageFile(study, run, hash), image, {.type = ExrOptions::Type::half});
+void keepShownImage(const Path& out, const Study& study, const StudyRun& run, const std::string& hash, const ImageData& image) {
+    if (isShown(study, run)) writeExr(out / shownImageFile(study, run, hash), image, {.type = ExrOptions::Type::half});
 }
 
-void keepReference(const Path& out, const Study& study, std::size_t scene, const ImageData& image) {
-    writeExr(out / referenceImageFile(study, scene), image, {.type = ExrOptions::Type::half});
+void keepShownReference(const Path& out, const Study& study, std::size_t scene, const ImageData& image) {
+    writeExr(out / shownReferenceFile(study, scene), image, {.type = ExrOptions::Type::half});
 }
 
 }  // namespace lodestir

@@ -55,7 +55,7 @@ OrderedJson metricJson(const Measure& measure) {
             {"about", temporal ? temporalMetricAbout(measure.metric) : metricAbout(measure.metric)},
             {"noiseFree", isNoiseFree(measure.metric)},
             {"temporal", temporal},
-            {"switched", measure.switched},
+            {"mask", measure.mask},
             {"finest", measure.finest}};
 }
 
@@ -98,21 +98,29 @@ OrderedJson cellJson(const Study& study, std::size_t scene, std::size_t techniqu
             {"frame", offset}};
 }
 
-/// Of paired seeds alone: values of `cell` and `base` that stem from one seed, of those that both have.
-Estimate pairedRatio(const Cell& cell, const Cell& base, const std::string& metric) {
-    std::vector<double> values, baseValues;
-    for (std::size_t i = 0; i < cell.drawn.size(); ++i) {
-        const auto same = std::ranges::find(base.drawn, cell.drawn[i]);
-        if (same == base.drawn.end()) continue;
-        values.push_back(cell.values.at(metric)[i]);
-        baseValues.push_back(base.values.at(metric)[std::size_t(same - base.drawn.begin())]);
-    }
-    return estimateRatio(values, baseValues);
+OrderedJson cellJson(const Study& study, const Cell& cell) { return cellJson(study, cell.scene, cell.technique, cell.knobs, cell.offset); }
+
+/// Of a ratio the ratio itself and the ends of its interval.
+OrderedJson toJson(const Difference& difference) {
+    return {{"ratio", difference.ratio}, {"paired", difference.paired}, {"middle", difference.middle()}, {"low", difference.low()}, {"high", difference.high()}};
 }
 
-/// `base`: the study's first configuration in the same frame, where seeds are paired. `start`: the first measured frames of the same configuration.
-OrderedJson cellJson(const Study& study, const Cell& cell, const Cell* base, std::span<const Cell> start) {
-    OrderedJson json = cellJson(study, cell.scene, cell.technique, cell.knobs, cell.offset);
+OrderedJson comparisonJson(const Study& study, const Summary& summary, const Comparison& comparison) {
+    const Cell &cell = summary.cells[comparison.cell], &baseline = summary.cells[comparison.baseline];
+    OrderedJson json = cellJson(study, cell), metrics = OrderedJson::object();
+    json["baseline"] = {{"technique", study.techniques[baseline.technique].name}, {"knobs", knobJson(baseline.knobs)}};
+    const auto& ablation = study.techniques[cell.technique].ablation;
+    json["without"] = ablation ? OrderedJson(ablation->parts) : OrderedJson(nullptr);
+    for (const auto& [name, difference] : comparison.metrics) metrics[name] = toJson(difference);
+    json["metrics"] = std::move(metrics);
+    json["ms"] = toJson(comparison.milliseconds);
+    json["rays"] = toJson(comparison.rays);
+    return json;
+}
+
+/// `start`: the measured frames of the same configuration.
+OrderedJson cellJson(const Study& study, const Cell& cell, std::span<const Cell> start) {
+    OrderedJson json = cellJson(study, cell);
     json["seeds"] = cell.drawn;
     json["runs"] = cell.runs;
     if (cell.seeds == 0) return json;
@@ -124,7 +132,6 @@ OrderedJson cellJson(const Study& study, const Cell& cell, const Cell* base, std
     for (const auto& [name, estimate] : cell.metrics) {
         OrderedJson metric = toJson(estimate);
         metric["values"] = cell.values.at(name);
-        if (base && base->values.contains(name)) metric["againstFirst"] = toJson(pairedRatio(cell, *base, name));
         const auto first = std::ranges::find_if(start, [&](const Cell& earlier) { return earlier.values.contains(name); });
         metric["againstStart"] = toJson(estimateRatio(cell.values.at(name), first->values.at(name)));
         metrics[name] = std::move(metric);
@@ -132,10 +139,11 @@ OrderedJson cellJson(const Study& study, const Cell& cell, const Cell* base, std
     json["metrics"] = std::move(metrics);
     json["referenceNoise"] = cell.noise;
     json["exposure"] = cell.exposure;
+    if (cell.budget) json["budget"] = {{"given", cell.budget->budget}, {"reached", cell.budget->reached}, {"inRange", cell.budget->inRange}};
     if (cell.offset == study.measure.back())
         for (std::size_t i = 0; i < cell.drawn.size(); ++i) {
             const StudyRun run{cell.scene, cell.technique, cell.knobs, cell.drawn[i]};
-            if (isShown(study, run)) json["image"] = imageFile(study, run, cell.runs[i]).string();
+            if (isShown(study, run)) json["image"] = shownImageFile(study, run, cell.runs[i]).string();
         }
     return json;
 }
@@ -226,22 +234,30 @@ OrderedJson cellJson(const Study& study, const EnsembleCell& cell) {
 
 OrderedJson summaryJson(const Study& study, const Summary& summary) {
     OrderedJson json = studyJson(study, summary.devices, summary.missing, summary.foreign);
-    for (std::size_t i = 0; i < study.scenes.size(); ++i) json["scenes"][i]["reference"] = referenceImageFile(study, i).string();
-    OrderedJson cells = OrderedJson::array();
-    const auto firstAlike = [&](const Cell& cell) {  // the study's first configuration, which the others are told against
-        return std::ranges::find_if(summary.cells, [&](const Cell& other) { return other.scene == cell.scene && other.offset == cell.offset; });
-    };
+    for (std::size_t i = 0; i < study.scenes.size(); ++i) json["scenes"][i]["reference"] = shownReferenceFile(study, i).string();
+    json["baseline"] = study.techniques[study.baseline].name;
+    if (study.equal) json["equal"] = study.equal->unit();
     const std::size_t frames = study.measure.size();
-    for (std::size_t i = 0; i < summary.cells.size(); ++i) {
-        const Cell &cell = summary.cells[i], &first = *firstAlike(cell);
-        const Cell* base = study.paired && &first != &cell && first.seeds > 0 ? &first : nullptr;
-        cells.push_back(cellJson(study, cell, base, std::span(summary.cells).subspan(i / frames * frames, frames)));
-    }
+    OrderedJson cells = OrderedJson::array();
+    for (std::size_t i = 0; i < summary.cells.size(); ++i)
+        cells.push_back(cellJson(study, summary.cells[i], std::span(summary.cells).subspan(i / frames * frames, frames)));
     json["cells"] = std::move(cells);
     OrderedJson sequences = OrderedJson::array();
     for (std::size_t i = 0; i < summary.cells.size(); i += frames)
         sequences.push_back(sequenceJson(study, std::span(summary.cells).subspan(i, frames)));
     json["sequences"] = std::move(sequences);
+    for (const char* name : {"comparisons", "exponents", "decompositions"}) json[name] = OrderedJson::array();
+    for (const Comparison& comparison : summary.comparisons) json["comparisons"].push_back(comparisonJson(study, summary, comparison));
+    for (const Exponent& exponent : summary.exponents) {
+        OrderedJson one = cellJson(study, summary.cells[exponent.cell]);
+        one.update({{"over", exponent.over}, {"metric", exponent.metric}, {"exponent", toJson(exponent.estimate)}});
+        json["exponents"].push_back(std::move(one));
+    }
+    for (const Decomposition& parts : summary.decompositions) {
+        OrderedJson one = cellJson(study, summary.cells[parts.cell]);
+        one.update({{"metric", parts.metric}, {"squaredBias", toJson(parts.bias)}, {"variance", toJson(parts.variance)}});
+        json["decompositions"].push_back(std::move(one));
+    }
     return json;
 }
 
