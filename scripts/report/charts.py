@@ -512,7 +512,7 @@ def power(r, scene):
             (artist,) = axes.bar(column, 1, width=1, bottom=row - 0.5, color=color, edgecolor="white", linewidth=1)
             d.hint(artist, f"{ensemble_label(r, c, f)}, {faults[column]}: {100 * share:.1f} %".replace("\n", " ") + (" (needed)" if fault and fault["needed"] else ""))
             axes.text(column, row, f"{100 * share:.{0 if fault else 1}f} %", ha="center", va="center", fontsize=6.5, color=INK)
-    axes.set_xticks(range(len(faults)), faults)
+    axes.set_xticks(range(len(faults)), faults, fontsize=5.5)
     axes.xaxis.tick_top()
     axes.set_yticks(range(len(cells)), [ensemble_label(r, c, f) for c, f, _ in cells])
     axes.set(xlim=(-0.5, len(faults) - 0.5), ylim=(len(cells) - 0.5, -0.5))

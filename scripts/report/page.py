@@ -216,7 +216,8 @@ class Figures:
             drawing.save_pdf(self.folder)
         drawing.close()
         self.count += 1
-        return [SimpleNamespace(slug=drawing.slug, title=drawing.title, note=drawing.note, svg=svg)]
+        pdf = f"{self.folder.name}/{drawing.slug}.pdf" if self.folder else None
+        return [SimpleNamespace(slug=drawing.slug, title=drawing.title, note=drawing.note, svg=svg, pdf=pdf)]
 
 
 def drawings_of(r, s, names, figures):

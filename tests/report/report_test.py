@@ -232,6 +232,27 @@ class ReportTest(unittest.TestCase):
             self.assertIn(part, text)
         self.assertNotIn("against pixels", self.page)
 
+    def test_nothing_measured_yet(self):
+        """If this fails, a study that was stopped at once, or a shard's, has no page."""
+        for name, scenes in (("one", ["hall"]), ("none", ["box", "hall"])):
+            folder = self.root / f"missing_{name}"
+            synthetic.error_study(folder, list(charts.ERROR))
+            summary = json.loads((folder / "summary.json").read_text())
+            for cell in summary["cells"]:
+                if cell["scene"] in scenes:
+                    for key in set(cell) - {"scene", "technique", "knobs", "frame"}:
+                        del cell[key]
+                    cell.update(seeds=[], runs=[])
+            for sequence in summary["sequences"]:
+                sequence["metrics"] = {} if sequence["scene"] in scenes else sequence["metrics"]
+            for key in ("comparisons", "exponents", "decompositions"):
+                summary[key] = [found for found in summary[key] if found["scene"] not in scenes]
+            (folder / "summary.json").write_text(json.dumps(summary))
+            self.assertEqual(run([str(folder), "--quiet"]), 0)
+            text = (folder / "report.html").read_text()
+            self.assertEqual(text.count("Nothing measured yet."), len(scenes))
+            self.assertEqual("relmse against time" in text, name == "one")
+
     def test_images_of_both_compressions(self):
         image = numpy.random.default_rng(1).normal(size=(37, 19, 3)) * 100
         for compression, kind in ((0, numpy.float32), (3, numpy.float16), (3, numpy.float32)):
