@@ -322,7 +322,7 @@ def ablation(r, scene, metric):
     wholes = dict.fromkeys(baseline_of(r.compared[at]) for at in found)
     names = [" and ".join(r.compared[at]["without"]) + (f" ({baseline_of(r.compared[at])})" if len(wholes) > 1 else "") for at in found]
     whole = next(iter(wholes)) if len(wholes) == 1 else "the whole"
-    return draw_ratios(r, scene, metric, "ablation", found, names, f"{metric['name']} of {whole} without{at_frame(r, found[0][2])}", f"{metric['name']} without ÷ with it")
+    return draw_ratios(r, scene, metric, "ablation", found, names, f"{metric['name']} of {whole} without a part{at_frame(r, found[0][2])}", f"{metric['name']} without ÷ with it")
 
 
 def bias_variance(r, scene, metric):

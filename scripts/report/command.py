@@ -64,7 +64,7 @@ def run(arguments):
             said += draw_report(folder, options) if single else draw_index(folder, options)
         if not options.quiet:
             print(*said, sep="\n")
-    except (Missing, OSError) as error:
+    except (Missing, OSError, ValueError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -74,8 +74,8 @@ def side_by_side(a, b, s, other, figures):
     """The charts of A that B has too, for a scene's index in both."""
     known = charts.ERROR if a.kind == "error" else charts.ENSEMBLE
     for name in page.chart_names(a):
-        chart = known[name]
-        if chart.of == "study":
+        chart = known.get(name)
+        if chart is None or chart.of == "study":
             continue
         for metric in a.metrics if chart.of == "metric" else [None]:
             if metric and metric["name"] not in b.error:

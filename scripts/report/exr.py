@@ -54,7 +54,13 @@ def inflate(block, size):
 
 def read(path):
     """(height, width, 3) array of 32-bit floats: R, G and B."""
-    data = path.read_bytes()
+    try:
+        return parse(path.read_bytes(), path)
+    except (struct.error, IndexError, KeyError, zlib.error) as error:
+        raise ValueError(f"{path}: is damaged or cut: {error}") from None
+
+
+def parse(data, path):
     if data[:4] != b"\x76\x2f\x31\x01":
         raise ValueError(f"{path}: is no OpenEXR file")
     header, at = attributes(data)

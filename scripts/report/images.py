@@ -14,7 +14,7 @@ def packed(image):
     with numpy.errstate(over="ignore"):
         halves = numpy.clip(image, -65504, 65504).astype("<f2")
     raw = numpy.ascontiguousarray(halves).view(numpy.uint8).reshape(-1, 2)
-    return base64.b64encode(zlib.compress(raw[:, 1].tobytes() + raw[:, 0].tobytes(), 9)).decode()
+    return base64.b64encode(zlib.compress(raw[:, 1].tobytes() + raw[:, 0].tobytes(), 6)).decode()
 
 
 def embedded(r, limit):

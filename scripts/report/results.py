@@ -10,7 +10,7 @@ from . import exr
 
 
 class Missing(Exception):
-    """There is nothing to report on."""
+    """There is nothing to report on, or nothing that can be read."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,12 @@ class Results:
         path = self.folder / "summary.json"
         if not path.exists():
             raise Missing(f"{path} is not there; lodestir study STUDY --out {folder} --resume writes it")
-        self.summary = json.loads(path.read_text())
+        try:
+            self.summary = json.loads(path.read_text())
+        except ValueError as error:
+            raise Missing(f"{path} is no JSON: {error}") from None
+        if self.summary.get("format") != 1:
+            raise Missing(f"{path} has a format that this report does not know; draw it with the scripts/report of the Lodestir that wrote it")
         self.kind = self.summary["kind"]
         self.name = self.summary["study"]
         self.scenes = [scene["name"] for scene in self.summary["scenes"]]

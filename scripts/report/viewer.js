@@ -248,7 +248,10 @@ $("reset").onclick = reset;
 $("exposure").oninput = event => setStops(Number(event.target.value));
 $("scene").replaceChildren(...data.scenes.map((scene, i) => new Option(scene.name, i)));
 $("scene").hidden = data.scenes.length < 2;
-$("scene").onchange = event => load(Number(event.target.value));
+$("scene").onchange = event => {
+    load(Number(event.target.value));
+    event.target.blur(); // keys are the viewer's again
+};
 addEventListener("resize", draw);
 addEventListener("keydown", event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("select, textarea, input:not([type=range])")) return;

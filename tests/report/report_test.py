@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The report of scripts/report: arrays, tables and charts against the rows that they are made of."""
+import contextlib
 import html.parser
+import io
 import json
 import pathlib
 import re
@@ -259,6 +261,19 @@ class ReportTest(unittest.TestCase):
             path = self.root / "image.exr"
             synthetic.write_exr(path, image, compression, kind)
             numpy.testing.assert_array_equal(exr.read(path), image.astype(kind).astype(numpy.float32))
+
+    def test_damaged_files_are_named(self):
+        folder = self.root / "damaged"
+        synthetic.error_study(folder, ["error_vs_time"])
+        image = folder / "images/hall.2.exr"
+        image.write_bytes(image.read_bytes()[:400])
+        for path, text in ((image, "is damaged or cut"), (folder / "summary.json", "is no JSON"), (folder / "summary.json", "has a format that")):
+            errors = io.StringIO()
+            with contextlib.redirect_stderr(errors):
+                self.assertEqual(run([str(folder)]), 1)
+            self.assertIn(str(path), errors.getvalue())
+            self.assertIn(text, errors.getvalue())
+            (folder / "summary.json").write_text("{ cut" if text == "is damaged or cut" else '{"format": 7}')
 
     def test_says_what_is_missing(self):
         """If this fails, who lacks a package is not told which."""

@@ -168,6 +168,8 @@ class ViewerTest(unittest.TestCase):
         self.browser.press("\ue015")  # arrow down
         self.browser.press("\ue007")  # enter
         self.until(lambda: self.colour(0, 20.5 / WIDTH, 9.5 / HEIGHT)[2] == round(encoded(float(numpy.float16(0.125 * 1.5)) * EXPOSURE)))
+        self.browser.press("2")
+        self.assertEqual(self.name(0), "path tracing, spp 4")
         self.browser.click(".techniques button[value='4']")
         self.assertEqual(self.name(0), "slow & poor")
 
