@@ -5,9 +5,10 @@ from types import SimpleNamespace
 import numpy
 
 from . import charts, page
-from .drawing import number
-from .page import cell, listed, measured, table
+from .plots import slug
 from .results import Missing
+from .tables import cell, measured, table
+from .words import facts, listed
 
 
 def ratio_of(b, a):
@@ -36,7 +37,8 @@ def columns(a, b):
     yield "rays a pixel", alone(a, lambda r: r.rays), alone(b, lambda r: r.rays)
     if a.kind == "error":
         for name in (m["name"] for m in a.metrics if m["name"] in b.error):
-            yield name, of(a, lambda r, n=name: r.error[n], lambda r, n=name: r.half_width[n]), of(b, lambda r, n=name: r.error[n], lambda r, n=name: r.half_width[n])
+            error, half_width = (lambda r, n=name: r.error[n]), (lambda r, n=name: r.half_width[n])
+            yield name, of(a, error, half_width), of(b, error, half_width)
     else:
         yield "energy against the reference", of(a, lambda r: r.difference, lambda r: r.half_width), of(b, lambda r: r.difference, lambda r: r.half_width)
 
@@ -56,8 +58,10 @@ def comparison(a, b, scene, pairs):
         if a.kind == "error":
             row.append(cell("yes" if a.cell(*left)["runs"] == b.cell(*right)["runs"] else "no"))
         rows.append(row)
-    note = "Ratios are B to A, with 95 % intervals of independent means. Same image: both ran the same scene, graph, shaders and framework, by their hashes; what differs then is the device." if a.kind == "error" else ""
-    return table(f"compare.{charts.slug(a.scenes[scene])}", head, rows, note)
+    note = "Ratios are B to A, with 95 % intervals of independent means."
+    if a.kind == "error":
+        note += " Same image: both ran the same scene, graph, shaders and framework, by their hashes; what differs then is the device."
+    return table(f"compare.{slug(a.scenes[scene])}", head, rows, note)
 
 
 def share_axes(one, two):
@@ -98,8 +102,8 @@ def page_of(a, b):
     for s in dict.fromkeys(left[0] for left, _ in pairs):
         other = b.scene(a.scenes[s])
         both = list(side_by_side(a, b, s, other, figures))
-        sections.append(SimpleNamespace(id=charts.slug(a.scenes[s]), name=a.scenes[s], tables=[comparison(a, b, s, pairs)], pairs=both))
+        sections.append(SimpleNamespace(id=slug(a.scenes[s]), name=a.scenes[s], tables=[comparison(a, b, s, pairs)], pairs=both))
     alone = sorted(set(a.labels) ^ set(b.labels))
-    sides = [SimpleNamespace(name=f"{place}: {r.folder.resolve().name}", facts=page.facts(r)) for place, r in zip("AB", (a, b))]
+    sides = [SimpleNamespace(name=f"{place}: {r.folder.resolve().name}", facts=facts(r)) for place, r in zip("AB", (a, b))]
     return page.render("compare.html", title=f"{a.name}: {a.folder.resolve().name} and {b.folder.resolve().name}", sides=sides, sections=sections,
                        only=f"In one of them alone: {listed(alone)}." if alone else "")

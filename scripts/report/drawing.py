@@ -159,7 +159,7 @@ class Drawing:
         svg = text.getvalue()
         svg = svg[svg.index("<svg"):]
         svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
-        svg = re.sub(r'<svg ([^>]*?)\s*width="[^"]*"', rf'<svg role="img" aria-label="{html.escape(self.title)}" \1', re.sub(r' height="[0-9.]+pt"', "", svg, 1), count=1)
+        svg = re.sub(r' (width|height)="[0-9.]+pt"', "", svg, count=2).replace("<svg", f'<svg role="img" aria-label="{html.escape(self.title)}"', 1)
         svg = re.sub(r'id="(figure_1|axes_\d+|matplotlib\.axis_\d+|patch_\d+|text_\d+|line2d_\d+|xtick_\d+|ytick_\d+|legend_\d+|LineCollection_\d+)"', "", svg)
         return re.sub(r'id="hint-(\d+)">', lambda found: f'class="hint"><title>{html.escape(self.hints[int(found[1])])}</title>', svg)
 

@@ -4,7 +4,8 @@ import collections
 import json
 from types import SimpleNamespace
 
-from .page import listed, render
+from .page import render
+from .words import listed
 
 
 def outcome(summary):
@@ -21,6 +22,7 @@ def page_of(folder, studies):
     found = []
     for study in studies:
         s = json.loads((study / "summary.json").read_text())
-        found.append(SimpleNamespace(link=f"{study.name}/report.html", name=study.name, about=s["about"], outcome=outcome(s), scenes=listed(dict.fromkeys(scene["file"] for scene in s["scenes"])),
+        scenes = listed(dict.fromkeys(scene["file"] for scene in s["scenes"]))
+        found.append(SimpleNamespace(link=f"{study.name}/report.html", name=study.name, about=s["about"], outcome=outcome(s), scenes=scenes,
                                      techniques=len(s["techniques"]), seeds=s["seeds"], device=listed(s["devices"]), date=s["date"][:10]))
     return render("index.html", title=f"Studies in {folder.resolve().name}", studies=found)

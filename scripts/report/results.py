@@ -42,7 +42,7 @@ def configuration_of(cell):
     return Configuration(cell["technique"], tuple((name, value if not isinstance(value, list) else tuple(value)) for name, value in cell["knobs"].items()))
 
 
-def number(value):
+def real(value):
     """JSON has no NaN: it is written as null."""
     return numpy.nan if value is None else value
 
@@ -177,30 +177,30 @@ class Results:
             self.compared[at] = found
             for name, difference in [*found["metrics"].items(), ("ms", found["ms"]), ("rays", found["rays"])]:
                 if difference["ratio"]:
-                    self.comparison[name][at] = [number(difference[key]) for key in ("middle", "low", "high")]
+                    self.comparison[name][at] = [real(difference[key]) for key in ("middle", "low", "high")]
         self.sequence = {name: numpy.full((*self.shape[:2], 2), numpy.nan) for name in names}
         for cell in self.summary["sequences"]:
             if configuration_of(cell) in self.configurations:
                 for name, found in cell["metrics"].items():
                     at = self.scene(cell["scene"]), self.configurations.index(configuration_of(cell))
-                    self.sequence[name][at] = number(found["mean"]), number(found["halfWidth"])
+                    self.sequence[name][at] = real(found["mean"]), real(found["halfWidth"])
         for *at, cell in cells:
             at, pixels = tuple(at), self.pixels[at[0]]
-            self.ms[at] = number(cell["ms"]["median"])
-            self.ms_range[at] = number(cell["ms"]["fastest"]), number(cell["ms"]["slowest"])
-            self.rays[at] = number(cell["rays"]["mean"]) / pixels
-            self.rays_half_width[at] = number(cell["rays"]["halfWidth"]) / pixels
+            self.ms[at] = real(cell["ms"]["median"])
+            self.ms_range[at] = real(cell["ms"]["fastest"]), real(cell["ms"]["slowest"])
+            self.rays[at] = real(cell["rays"]["mean"]) / pixels
+            self.rays_half_width[at] = real(cell["rays"]["halfWidth"]) / pixels
             self.seeds[at][:len(cell["seeds"])] = cell["seeds"]
             for name, cost in cell["passes"].items():
                 place = self.passes.index(name)
-                self.pass_ms[at][place] = number(cost["ms"])
+                self.pass_ms[at][place] = real(cost["ms"])
                 self.pass_rays[at][place] = 0
                 for purpose, rays in cost["rays"].items():
                     self.pass_rays[at][place, self.purposes.index(purpose)] = rays / pixels
             for name, found in cell["metrics"].items():
-                self.error[name][at] = number(found["mean"])
-                self.half_width[name][at] = number(found["halfWidth"])
-                self.values[name][at][:len(found["values"])] = [number(value) for value in found["values"]]
+                self.error[name][at] = real(found["mean"])
+                self.half_width[name][at] = real(found["halfWidth"])
+                self.values[name][at][:len(found["values"])] = [real(value) for value in found["values"]]
 
     def _fill_ensemble(self):
         self.ms, self.rays = self._empty(), self._empty()
@@ -210,9 +210,9 @@ class Results:
         for *at, cell in self.measured():
             at = tuple(at)
             luminance = cell["energy"]["luminance"]
-            self.ms[at], self.rays[at] = number(cell["ms"]), number(cell["rays"]) / self.pixels[at[0]]
-            self.difference[at], self.half_width[at] = number(luminance["difference"]), number(luminance["halfWidth"])
-            self.energy_p[at], self.block_p[at] = number(cell["energyP"]), number(cell["blockP"])
+            self.ms[at], self.rays[at] = real(cell["ms"]), real(cell["rays"]) / self.pixels[at[0]]
+            self.difference[at], self.half_width[at] = real(luminance["difference"]), real(luminance["halfWidth"])
+            self.energy_p[at], self.block_p[at] = real(cell["energyP"]), real(cell["blockP"])
             self.verdict[at] = cell["verdict"]
 
 

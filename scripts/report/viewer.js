@@ -183,7 +183,11 @@ function pixelAt(pane, clientX, clientY) {
     return [((clientX - box.left) * canvas.width / box.width - left) / scale, ((clientY - box.top) * canvas.height / box.height - top) / scale];
 }
 
-const short = value => Number.isFinite(value) ? value === 0 ? "0" : Math.abs(value) >= 1e-3 && Math.abs(value) < 1e5 ? value.toPrecision(4) : value.toExponential(2) : String(value);
+function short(value) {
+    const size = Math.abs(value);
+    if (!Number.isFinite(value) || size === 0) return String(value);
+    return size >= 1e-3 && size < 1e5 ? value.toPrecision(4) : value.toExponential(2);
+}
 function tell(pane, clientX, clientY) {
     const { loaded } = state;
     if (!loaded) return;

@@ -15,9 +15,9 @@ import unittest
 import numpy
 import synthetic
 
-from report import charts, compare, exr, load, page
+from report import charts, compare, error_charts, exr, load, plots
 from report.command import run
-from report.drawing import number, use_style
+from report.drawing import Drawing, number, use_style
 
 PROGRAM = pathlib.Path(synthetic.__file__).resolve().parents[2] / "scripts/report"
 
@@ -106,6 +106,8 @@ class ReportTest(unittest.TestCase):
         self.assertEqual({row[0][0] for row in tables["ablation.box"][1:]}, {"spatial and temporal.cap"})
         self.assertEqual(tables["exponents.box"][1][-1], ("−0.98 ± 0.03", "-0.98"))
         self.assertNotIn("exponents.hall", tables)
+        self.assertEqual([text for text, _ in tables["budget.hall"][1]], ["reuse", "-1", "30", "31", "31.5", "out of its knob's range"])
+        self.assertEqual(tables["budget.box"][1][-1][0], "")
 
     def test_page_stands_alone(self):
         for part in ("<svg", "a &lt; b", "slow &amp; poor", "Stability by case: tflip", "Stability: relmse against that of frame -1", "Time by pass, frame 0", 'id="images"'):
@@ -118,7 +120,7 @@ class ReportTest(unittest.TestCase):
     def test_marks_say_their_values(self):
         r = load(self.folder)
         mean = numpy.mean([synthetic.error_value("relmse", "box", 2, 0, s) for s in synthetic.SEEDS])
-        drawing = charts.error_vs_time(r, 0, r.metrics[0])
+        drawing = error_charts.error_vs_time(r, 0, r.metrics[0])
         svg = drawing.svg()
         self.assertEqual(svg.count("<title>"), len(synthetic.CONFIGURATIONS))
         self.assertIn(f"<title>reuse: 31.5 ms, 9 rays a pixel, relmse {number(mean)}", svg)
@@ -126,9 +128,9 @@ class ReportTest(unittest.TestCase):
 
     def test_logarithmic_axes_and_hidden_points(self):
         """If this fails, points stand elsewhere than their values, or vanish without a word."""
-        d = charts.Drawing("test", "a title")
-        points = [charts.Point(v, 1 / v, "p") for v in (1.0, 10.0, 100.0)] + [charts.Point(10.0, -1.0, "below")]
-        charts.draw_points(d, {"curve": ((0,), points)}, "x (ms)", "y", True, True)
+        d = Drawing("test", "a title")
+        points = [plots.Point(v, 1 / v, "p") for v in (1.0, 10.0, 100.0)] + [plots.Point(10.0, -1.0, "below")]
+        plots.draw_points(d, {"curve": ((0,), points)}, "x (ms)", "y", True, True)
         places = [d.axes.transData.transform((p.x, p.y)) for p in points[:3]]
         d.finish()
         self.assertAlmostEqual(places[1][0] - places[0][0], places[2][0] - places[1][0], places=6)
@@ -139,12 +141,12 @@ class ReportTest(unittest.TestCase):
         d.close()
 
     def test_frontier_keeps_the_undominated(self):
-        point = lambda x, y: charts.Point(x, y, "")  # noqa: E731
+        point = lambda x, y: plots.Point(x, y, "")  # noqa: E731
         points = [point(1, 5), point(2, 5), point(2, 3), point(3, 4), point(4, 1), point(4, 2)]
-        self.assertEqual([(p.x, p.y) for p in charts.undominated(points)], [(1, 5), (2, 3), (4, 1)])
+        self.assertEqual([(p.x, p.y) for p in error_charts.undominated(points)], [(1, 5), (2, 3), (4, 1)])
 
     def test_outcomes(self):
-        self.assertEqual([charts.outcome(m, 0.1, 1.0, 0.1) for m in (1.0, 1.2, 1.3, 2.5, 6.0)], [0, 0, 1, 2, 3])
+        self.assertEqual([error_charts.outcome(m, 0.1, 1.0, 0.1) for m in (1.0, 1.2, 1.3, 2.5, 6.0)], [0, 0, 1, 2, 3])
 
     def test_nothing_is_clipped(self):
         """Every text of every chart lies within the figure, whose width is a paper's column."""

@@ -26,9 +26,7 @@ Path shownImageFile(const Study& study, const StudyRun& run, const std::string& 
                                                  knobs.empty() ? "" : ".", knobs, hash.substr(0, 8)));
 }
 
-Path shownReferenceFile(const Study& study, std::size_t scene) {
-    return Path("images") / fileName(study.scenes[scene].name + ".reference.exr");
-}
+Path shownReferenceFile(const Study& study, std::size_t scene) { return Path("images") / fileName(study.scenes[scene].name + ".reference.exr"); }
 
 Path ensembleImageFile(const Study& study, const EnsembleCell& cell) {
     return Path("images") / fileName(fmt::format("{}.{}.{}.exr", study.scenes[cell.scene].name, labelOf(study, cell), cell.offset));

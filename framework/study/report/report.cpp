@@ -34,7 +34,7 @@ std::optional<int> draw(const Path& out) {
 }  // namespace
 
 std::vector<std::string> chartNames() {
-    return {"error_vs_time",   "error_vs_rays", "error_vs_frame", "frontier", "time_by_pass",    "rays_by_pass",
+    return {"error_vs_time",   "error_vs_rays", "error_vs_frame", "frontier", "time_by_pass",  "rays_by_pass",
             "rays_by_purpose", "stability",     "comparison",     "ablation", "bias_variance", "stability_matrix"};
 }
 

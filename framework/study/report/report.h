@@ -10,7 +10,7 @@
 
 namespace lodestir {
 
-/// The charts that a study may ask for. Each is a function of scripts/report/charts.py.
+/// The charts that a study may ask for. scripts/report/charts.py lists the functions that draw them.
 std::vector<std::string> chartNames();
 
 /// Writes summary.json into a folder of results, and has scripts/report draw report.html and figures/ beside it. Results are complete without

@@ -28,9 +28,7 @@ std::string machineName() {
     return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-OrderedJson sceneJson(const StudyScene& scene) {
-    return {{"name", scene.name}, {"file", scene.file.stem().string()}, {"size", {scene.size.x, scene.size.y}}};
-}
+OrderedJson sceneJson(const StudyScene& scene) { return {{"name", scene.name}, {"file", scene.file.stem().string()}, {"size", {scene.size.x, scene.size.y}}}; }
 
 OrderedJson techniqueJson(const Technique& technique) {
     OrderedJson knobs = OrderedJson::array(), set = OrderedJson::object();
@@ -92,17 +90,15 @@ OrderedJson studyJson(const Study& study, const std::set<std::string>& devices, 
 OrderedJson toJson(const Estimate& estimate) { return {{"mean", estimate.mean}, {"halfWidth", estimate.halfWidth}}; }
 
 OrderedJson cellJson(const Study& study, std::size_t scene, std::size_t technique, const std::vector<Setting>& knobs, int offset) {
-    return {{"scene", study.scenes[scene].name},
-            {"technique", study.techniques[technique].name},
-            {"knobs", knobJson(knobs)},
-            {"frame", offset}};
+    return {{"scene", study.scenes[scene].name}, {"technique", study.techniques[technique].name}, {"knobs", knobJson(knobs)}, {"frame", offset}};
 }
 
 OrderedJson cellJson(const Study& study, const Cell& cell) { return cellJson(study, cell.scene, cell.technique, cell.knobs, cell.offset); }
 
 /// Of a ratio the ratio itself and the ends of its interval.
 OrderedJson toJson(const Difference& difference) {
-    return {{"ratio", difference.ratio}, {"paired", difference.paired}, {"middle", difference.middle()}, {"low", difference.low()}, {"high", difference.high()}};
+    return {
+        {"ratio", difference.ratio}, {"paired", difference.paired}, {"middle", difference.middle()}, {"low", difference.low()}, {"high", difference.high()}};
 }
 
 OrderedJson comparisonJson(const Study& study, const Summary& summary, const Comparison& comparison) {
@@ -243,8 +239,7 @@ OrderedJson summaryJson(const Study& study, const Summary& summary) {
         cells.push_back(cellJson(study, summary.cells[i], std::span(summary.cells).subspan(i / frames * frames, frames)));
     json["cells"] = std::move(cells);
     OrderedJson sequences = OrderedJson::array();
-    for (std::size_t i = 0; i < summary.cells.size(); i += frames)
-        sequences.push_back(sequenceJson(study, std::span(summary.cells).subspan(i, frames)));
+    for (std::size_t i = 0; i < summary.cells.size(); i += frames) sequences.push_back(sequenceJson(study, std::span(summary.cells).subspan(i, frames)));
     json["sequences"] = std::move(sequences);
     for (const char* name : {"comparisons", "exponents", "decompositions"}) json[name] = OrderedJson::array();
     for (const Comparison& comparison : summary.comparisons) json["comparisons"].push_back(comparisonJson(study, summary, comparison));
