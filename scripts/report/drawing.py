@@ -76,7 +76,7 @@ def scale(axis, values, log):
         if high - low < 0.1:  # ticks need something to stand at
             low, high = low - 0.15, high + 0.15
         margin = 0.07 * (high - low)
-        axis._set_axes_scale("log")
+        getattr(axis.axes, f"set_{axis.axis_name}scale")("log")
         limits = 10 ** (low - margin), 10 ** (high + margin)
         decades = high - low
         subs = (1, 1.5, 2, 3, 4, 5, 7) if decades < 0.7 else (1, 2, 3, 5) if decades < 1 else (1, 2, 5) if decades < 2.2 else (1,)
