@@ -10,6 +10,7 @@
 #include <framework/study/stage.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
@@ -138,6 +139,7 @@ void Stage::check() {
 const Scene& Stage::scene(std::size_t index) {
     if (loaded_ != index) {
         loaded_.reset();
+        runners_.clear();
         scene_ = loadScene(study_.scenes[index].file);
         content_ = contentOf(scene_);
         loaded_ = index;
@@ -185,29 +187,32 @@ ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) {
     return image;
 }
 
-void Stage::runFrames(StagedGraph& staged, std::size_t scene, const std::vector<int>& clear, const std::function<void(const Runner&, FrameReport&)>& take) {
-    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
-    runner->setFrame(std::uint32_t(study_.event - study_.warmup));
+void Stage::runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take) {
+    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
     for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
-        if (std::ranges::find(clear, offset) != clear.end()) runner->reset();
-        FrameReport report = runner->run();
-        if (study_.isMeasured(offset)) take(*runner, report);
+        if (std::ranges::find(clear, offset) != clear.end()) runner.reset();
+        FrameReport report = runner.run();
+        if (study_.isMeasured(offset)) take(report);
     }
 }
 
 std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     const Technique& technique = study_.techniques[run.technique];
-    StagedGraph staged = build(technique.graph, run.knobs, run.scene, run.seed);
+    scene(run.scene);  // a new one ends the runners of another
+    const auto build = [&] { return this->build(technique.graph, run.knobs, run.scene, run.seed); };
+    KeptRunner& kept = runners_.get(renderer_.device(), fmt::format("{} {}", run.technique, knobJson(run.knobs).dump()), build,
+                                    [&](StagedGraph& staged) { return makeRunner(staged, run.scene); });
+    kept.staged.graph.description.seed = run.seed;
     std::vector<StagedFrame> frames;
-    runFrames(staged, run.scene, technique.clear,
-              [&](const Runner& runner, FrameReport& report) { frames.push_back({std::move(report), imageOf(runner, staged)}); });
+    runFrames(*kept.runner, technique.clear, [&](FrameReport& report) { frames.push_back({std::move(report), imageOf(*kept.runner, kept.staged)}); });
     return frames;
 }
 
 std::vector<ImageData> Stage::renderMask(const StudyGraph& graph, std::size_t scene) {
     StagedGraph staged = build(graph, {}, scene, study_.seeds.front());
+    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
     std::vector<ImageData> images;
-    runFrames(staged, scene, {}, [&](const Runner& runner, FrameReport&) { images.push_back(runner.readImage(staged.port)); });
+    runFrames(*runner, {}, [&](FrameReport&) { images.push_back(runner->readImage(staged.port)); });
     return images;
 }
 
