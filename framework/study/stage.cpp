@@ -87,7 +87,7 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
                          .set = choice.set,
                          .variant = choice.variant,
                          .variantWhere = choice.variantWhere,
-                         .patch = choice.patch};
+                         .patches = choice.patches};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port = measuredPort(staged.graph, choice);
