@@ -141,7 +141,7 @@ const Scene& Stage::scene(std::size_t index) {
         loaded_.reset();
         runners_.clear();
         scene_ = loadScene(study_.scenes[index].file);
-        content_ = contentOf(scene_);
+        content_ = lodestir::contentOf(scene_);
         loaded_ = index;
     }
     return scene_;
@@ -153,22 +153,29 @@ const Hash& Stage::sceneContent(std::size_t index) {
 }
 
 std::string Stage::nameOf(const StudyRun& run) {
+    const std::string key = fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+    const auto [place, isNew] = contents_.try_emplace(key);
+    if (isNew) place->second = contentOf(run);
+    return Hash(place->second).addValue(run.seed).hex();
+}
+
+/// Of a run but for its seed.
+Hash Stage::contentOf(const StudyRun& run) {
     const StudyGraph& choice = study_.techniques[run.technique].graph;
-    const StagedGraph staged = build(choice, run.knobs, run.scene, run.seed), reference = build(study_.reference, {}, run.scene, 0);
     Hash hash;
-    hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
-    hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
-    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
+    const auto add = [&](const StagedGraph& staged) { hash.addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)); };
+    hash.addValue(sceneContent(run.scene));
+    add(build(choice, run.knobs, run.scene, 0));
+    add(build(study_.reference, {}, run.scene, 0));
+    hash.addValue(study_.referenceSamples);
+    if (needsSeen(study_)) hash.addValue(lodestir::contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
     for (const Mask& mask : study_.masks)
-        if (mask.graph) {
-            const StagedGraph masking = build(*mask.graph, {}, run.scene, study_.seeds.front());
-            hash.addValue(contentOf(masking.graph)).add(masking.graph.nameOf(masking.port));
-        }
+        if (mask.graph) add(build(*mask.graph, {}, run.scene, 0));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
     for (const int offset : study_.techniques[run.technique].clear) hash.addValue(offset);
-    return hash.hex();
+    return hash;
 }
 
 StagedGraph Stage::buildReference(std::size_t scene, int samples) {
@@ -223,7 +230,7 @@ std::array<ReferenceHalf, 2> Stage::referenceHalves(std::size_t sceneIndex, int 
     const StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
     const int frame = firstAlike(study_, scene_, study_.event + offset);
     Hash content;
-    content.addValue(sceneHash).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
+    content.addValue(sceneHash).addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
     if (finest) content.add("finest");
     const auto half = [&](std::uint32_t index) {
         return ReferenceHalf{sceneIndex, frame, finest, index, folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"))};

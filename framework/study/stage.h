@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,6 +74,7 @@ public:
 private:
     /// Runs a graph from the warm-up to the last measured frame; `take` reads the measured ones.
     void runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take);
+    Hash contentOf(const StudyRun& run);
     int samplesAFrame(const Graph& graph) const;  ///< of a reference, at most
     ImageData renderHalf(StagedGraph& staged, const ReferenceHalf& half);
 
@@ -81,6 +83,7 @@ private:
     std::optional<std::size_t> loaded_;
     Scene scene_;
     Hash content_;
+    std::map<std::string, Hash> contents_;  ///< of configurations
     KeptRunners runners_;  ///< of that scene; behind what they are made of
 };
 
