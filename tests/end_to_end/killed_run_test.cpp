@@ -147,7 +147,7 @@ TEST_F(KilledRun, StudiesResumeAfterAnyKill) {
     EXPECT_GT(killed, 0);
 }
 
-// If this fails, what a study has measured so far can't be looked at when it is stopped.
+// If this fails, what a study has measured so far can't be looked at when it is stopped, or processes of it stay behind.
 TEST_F(KilledRun, AnInterruptedStudyReportsWhatItHas) {
     write("study.json",
           {{"format", 1},
@@ -156,20 +156,24 @@ TEST_F(KilledRun, AnInterruptedStudyReportsWhatItHas) {
            {"seeds", 5000},
            {"reference", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"spp", 8}}},
            {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}}}}});
-    const Path out = folder / "out";
-    Process process({LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", out.string()});
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
-    const auto rows = [&] {
-        return std::filesystem::exists(out / "results.jsonl") ? std::ranges::count(readText(out / "results.jsonl"), '\n') : 0;
-    };
-    while (rows() < 2 && process.running() && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    process.kill(SIGINT);
-    const Output output = process.wait(std::chrono::seconds(60));
-    EXPECT_EQ(output.exitCode, 1) << output.err;
-    EXPECT_NE(output.err.find("interrupted by SIGINT; go on with --resume"), std::string::npos) << output.err;
-    EXPECT_GE(rows(), 2);
-    EXPECT_NE(readText(out / "report.html").find(std::to_string(5000 - rows()) + " runs are still missing"), std::string::npos);
+    for (const char* jobs : {"1", "2"}) {
+        const Path out = folder / jobs;
+        Process process({LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", out.string(), "--jobs", jobs});
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+        const auto rows = [&] {
+            return std::filesystem::exists(out / "results.jsonl") ? std::ranges::count(readText(out / "results.jsonl"), '\n') : 0;
+        };
+        while (rows() < 2 && process.running() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        process.kill(SIGINT);  // to all of its processes, as a terminal sends it
+        const Output output = process.wait(std::chrono::seconds(60));
+        EXPECT_EQ(output.exitCode, 1) << output.err;
+        EXPECT_NE(output.err.find("interrupted by SIGINT; go on with --resume"), std::string::npos) << output.err;
+        EXPECT_GE(rows(), 2);
+        EXPECT_LT(rows(), 5000);
+        EXPECT_EQ(measuredIn(out / "results.jsonl").size(), std::size_t(rows()));
+        EXPECT_NE(readText(out / "report.html").find(std::to_string(5000 - rows()) + " runs are still missing"), std::string::npos);
+    }
 }
 
 // If this fails, a model or a map that was cut off is taken for a whole one.
