@@ -50,7 +50,7 @@ std::vector<Part> partsOf(const Graph& graph, const Source& measured) {
     std::vector<Part> parts;
     for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
         const GraphNode& node = graph.nodes[i];
-        if (!counts[i] || node.off) continue;
+        if (!counts[i] || node.off || node.type == "scene") continue;  // what is looked at is no part of how
         if (!node.pass->bypasses.empty()) parts.push_back({node.name, offPatch(graph, i)});
         for (const Parameter* parameter : node.pass->parameters) {
             const bool* isOn = std::get_if<bool>(&parameter->value);
@@ -85,7 +85,7 @@ private:
     Graph build(const StudyGraph& choice) {
         const StudyScene& scene = study_.scenes.front();
         return renderer_.build(choice.graph, {.scene = std::filesystem::absolute(scene.file), .size = scene.size, .set = choice.set, .variant = choice.variant,
-                                              .variantWhere = choice.variantWhere, .patch = choice.patch});
+                                              .variantWhere = choice.variantWhere, .patches = choice.patches});
     }
 
     /// The technique without these parts, unless that can't be.
@@ -93,17 +93,15 @@ private:
         Technique less = technique;
         less.ablate = Ablate::nothing;
         less.ablation = Ablation{.whole = whole_, .parts = {}};
-        Json patch = technique.graph.patch.value_or(Json::object());
         std::string names;
         for (const Part* part : parts) {
-            patch.merge(part->patch);
+            less.graph.patches.push_back(part->patch);
             names += (names.empty() ? "" : " and ") + part->name;
             less.ablation->parts.push_back(part->name);
             // What is set by the study comes behind the patch, and would turn it on again.
             std::erase_if(less.graph.set, [&](const Setting& setting) { return setting.name == part->name; });
         }
         less.name = technique.name + " without " + names;
-        less.graph.patch = std::move(patch);
         const auto refuse = [&](const std::string& why) {
             log::note("\"{}\" is left out: {}", less.name, why);
             return false;

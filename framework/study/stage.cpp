@@ -10,6 +10,7 @@
 #include <framework/study/stage.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
@@ -86,7 +87,7 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
                          .set = choice.set,
                          .variant = choice.variant,
                          .variantWhere = choice.variantWhere,
-                         .patch = choice.patch};
+                         .patches = choice.patches};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port = measuredPort(staged.graph, choice);
@@ -138,8 +139,9 @@ void Stage::check() {
 const Scene& Stage::scene(std::size_t index) {
     if (loaded_ != index) {
         loaded_.reset();
+        runners_.clear();
         scene_ = loadScene(study_.scenes[index].file);
-        content_ = contentOf(scene_);
+        content_ = lodestir::contentOf(scene_);
         loaded_ = index;
     }
     return scene_;
@@ -151,22 +153,29 @@ const Hash& Stage::sceneContent(std::size_t index) {
 }
 
 std::string Stage::nameOf(const StudyRun& run) {
+    const std::string key = fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+    const auto [place, isNew] = contents_.try_emplace(key);
+    if (isNew) place->second = contentOf(run);
+    return Hash(place->second).addValue(run.seed).hex();
+}
+
+/// Of a run but for its seed.
+Hash Stage::contentOf(const StudyRun& run) {
     const StudyGraph& choice = study_.techniques[run.technique].graph;
-    const StagedGraph staged = build(choice, run.knobs, run.scene, run.seed), reference = build(study_.reference, {}, run.scene, 0);
     Hash hash;
-    hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
-    hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
-    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
+    const auto add = [&](const StagedGraph& staged) { hash.addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)); };
+    hash.addValue(sceneContent(run.scene));
+    add(build(choice, run.knobs, run.scene, 0));
+    add(build(study_.reference, {}, run.scene, 0));
+    hash.addValue(study_.referenceSamples);
+    if (needsSeen(study_)) hash.addValue(lodestir::contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
     for (const Mask& mask : study_.masks)
-        if (mask.graph) {
-            const StagedGraph masking = build(*mask.graph, {}, run.scene, study_.seeds.front());
-            hash.addValue(contentOf(masking.graph)).add(masking.graph.nameOf(masking.port));
-        }
+        if (mask.graph) add(build(*mask.graph, {}, run.scene, 0));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
     for (const int offset : study_.techniques[run.technique].clear) hash.addValue(offset);
-    return hash.hex();
+    return hash;
 }
 
 StagedGraph Stage::buildReference(std::size_t scene, int samples) {
@@ -185,29 +194,32 @@ ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) {
     return image;
 }
 
-void Stage::runFrames(StagedGraph& staged, std::size_t scene, const std::vector<int>& clear, const std::function<void(const Runner&, FrameReport&)>& take) {
-    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
-    runner->setFrame(std::uint32_t(study_.event - study_.warmup));
+void Stage::runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take) {
+    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
     for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
-        if (std::ranges::find(clear, offset) != clear.end()) runner->reset();
-        FrameReport report = runner->run();
-        if (study_.isMeasured(offset)) take(*runner, report);
+        if (std::ranges::find(clear, offset) != clear.end()) runner.reset();
+        FrameReport report = runner.run();
+        if (study_.isMeasured(offset)) take(report);
     }
 }
 
 std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     const Technique& technique = study_.techniques[run.technique];
-    StagedGraph staged = build(technique.graph, run.knobs, run.scene, run.seed);
+    scene(run.scene);  // a new one ends the runners of another
+    const auto build = [&] { return this->build(technique.graph, run.knobs, run.scene, run.seed); };
+    KeptRunner& kept = runners_.get(renderer_.device(), fmt::format("{} {}", run.technique, knobJson(run.knobs).dump()), build,
+                                    [&](StagedGraph& staged) { return makeRunner(staged, run.scene); });
+    kept.staged.graph.description.seed = run.seed;
     std::vector<StagedFrame> frames;
-    runFrames(staged, run.scene, technique.clear,
-              [&](const Runner& runner, FrameReport& report) { frames.push_back({std::move(report), imageOf(runner, staged)}); });
+    runFrames(*kept.runner, technique.clear, [&](FrameReport& report) { frames.push_back({std::move(report), imageOf(*kept.runner, kept.staged)}); });
     return frames;
 }
 
 std::vector<ImageData> Stage::renderMask(const StudyGraph& graph, std::size_t scene) {
     StagedGraph staged = build(graph, {}, scene, study_.seeds.front());
+    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
     std::vector<ImageData> images;
-    runFrames(staged, scene, {}, [&](const Runner& runner, FrameReport&) { images.push_back(runner.readImage(staged.port)); });
+    runFrames(*runner, {}, [&](FrameReport&) { images.push_back(runner->readImage(staged.port)); });
     return images;
 }
 
@@ -218,7 +230,7 @@ std::array<ReferenceHalf, 2> Stage::referenceHalves(std::size_t sceneIndex, int 
     const StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
     const int frame = firstAlike(study_, scene_, study_.event + offset);
     Hash content;
-    content.addValue(sceneHash).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
+    content.addValue(sceneHash).addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
     if (finest) content.add("finest");
     const auto half = [&](std::uint32_t index) {
         return ReferenceHalf{sceneIndex, frame, finest, index, folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"))};

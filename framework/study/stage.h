@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Where a study's graphs are rendered: one device, one scene at a time, every run in a fresh runner, so that no run knows of another.
+// Where a study's graphs are rendered: one device, one scene at a time, every run with a history that is void, so that no run knows of another.
 #pragma once
 #include <framework/graph/renderer.h>
 #include <framework/scene/scene.h>
 #include <framework/study/error/seen.h>
+#include <framework/study/kept_runners.h>
 #include <framework/study/run_list.h>
 #include <framework/study/workers.h>
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,12 +21,6 @@ namespace lodestir {
 /// Most samples of one frame of a reference: frames of a second or so, because long ones are taken for a hang on GPUs that also draw the
 /// screen.
 inline constexpr std::uint64_t samplesPerFrame = 1 << 23;
-
-/// A graph for one scene, checked, and what is measured of it.
-struct StagedGraph {
-    Graph graph;
-    Source port;  ///< an image in linear radiance
-};
 
 struct StagedFrame {
     FrameReport report;
@@ -77,7 +73,8 @@ public:
 
 private:
     /// Runs a graph from the warm-up to the last measured frame; `take` reads the measured ones.
-    void runFrames(StagedGraph& staged, std::size_t scene, const std::vector<int>& clear, const std::function<void(const Runner&, FrameReport&)>& take);
+    void runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take);
+    Hash contentOf(const StudyRun& run);
     int samplesAFrame(const Graph& graph) const;  ///< of a reference, at most
     ImageData renderHalf(StagedGraph& staged, const ReferenceHalf& half);
 
@@ -86,6 +83,8 @@ private:
     std::optional<std::size_t> loaded_;
     Scene scene_;
     Hash content_;
+    std::map<std::string, Hash> contents_;  ///< of configurations
+    KeptRunners runners_;  ///< of that scene; behind what they are made of
 };
 
 }  // namespace lodestir

@@ -19,7 +19,7 @@ namespace lodestir {
 struct StudyGraph {
     Path graph;
     std::optional<std::string> variant;
-    std::optional<Json> patch;  ///< merged into the graph behind the variant
+    std::vector<Json> patches;  ///< merged into the graph behind the variant
     std::vector<Setting> set;
     std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
     Where where;       ///< of the graph's name

@@ -209,7 +209,7 @@ void workAlone(const Work& work, const Jobs& jobs) {
 
 WorkQueue::WorkQueue(const std::vector<WorkItem>& items) : items_(items), begun_(items.size()), left_(items.size()) {
     for (const WorkItem& item : items)
-        if (item.opens) ++opening_[item.group];
+        if (item.opens) ++opening_[item.scene];
 }
 
 std::size_t WorkQueue::next(std::size_t worker) {
@@ -218,7 +218,7 @@ std::size_t WorkQueue::next(std::size_t worker) {
     std::size_t any = none, free = none;
     for (std::size_t i = first_; i < items_.size(); ++i) {
         const WorkItem& item = items_[i];
-        if (begun_[i] || (!item.opens && opening_[item.group] > 0)) continue;
+        if (begun_[i] || (!item.opens && opening_[item.scene] > 0)) continue;
         if (item.group == groups_[worker]) {
             any = i;
             free = none;
@@ -236,7 +236,7 @@ std::size_t WorkQueue::next(std::size_t worker) {
 }
 
 void WorkQueue::done(std::size_t item) {
-    if (items_[item].opens) --opening_[items_[item].group];
+    if (items_[item].opens) --opening_[items_[item].scene];
 }
 
 std::string doWork(const Work& work, const Jobs& jobs) {

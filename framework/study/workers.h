@@ -12,7 +12,8 @@ namespace lodestir {
 
 struct WorkItem {
     std::size_t group = 0;  ///< items of one group share what is dear to make: a worker stays with its own while that has any left
-    bool opens = false;     ///< it has to be done before any item of its group begins that doesn't open it
+    std::size_t scene = 0;
+    bool opens = false;  ///< it has to be done before any item of its scene begins that doesn't open it
 };
 
 /// What a worker renders on.
@@ -56,7 +57,7 @@ public:
 private:
     const std::vector<WorkItem>& items_;
     std::vector<bool> begun_;
-    std::map<std::size_t, std::size_t> opening_;  ///< by group: items that open it and aren't done
+    std::map<std::size_t, std::size_t> opening_;  ///< by scene: items that open it and aren't done
     std::vector<std::size_t> groups_;             ///< of the last item of each worker
     std::size_t first_ = 0;                       ///< item that has not begun
     std::size_t left_;

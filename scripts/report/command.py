@@ -3,6 +3,7 @@
 import argparse
 import os
 import pathlib
+import socket
 import sys
 
 from . import charts, compare, index, page
@@ -10,9 +11,23 @@ from .drawing import use_style
 from .results import Missing, load
 
 
+def runs(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        pass
+    return True
+
+
 def write(path, text):
-    """Aside and then renamed: whoever looks finds the old page or the new one."""
-    aside = path.with_name(f".{path.name}.{os.getpid()}")
+    """Aside and then renamed: whoever looks finds the old page or the new one. What killed ones left on this machine goes."""
+    start = f".{path.name}.{socket.gethostname()}."
+    for left in path.parent.glob(start + "*"):
+        if not runs(int(left.name[len(start):])):
+            left.unlink(missing_ok=True)
+    aside = path.with_name(start + str(os.getpid()))
     aside.write_text(text, encoding="utf-8")
     aside.replace(path)
 

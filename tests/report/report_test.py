@@ -4,9 +4,11 @@ import contextlib
 import html.parser
 import io
 import json
+import os
 import pathlib
 import re
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -16,7 +18,7 @@ import numpy
 import synthetic
 
 from report import charts, compare, error_charts, exr, load, plots
-from report.command import run
+from report.command import run, write
 from report.drawing import Drawing, number, use_style
 
 PROGRAM = pathlib.Path(synthetic.__file__).resolve().parents[2] / "scripts/report"
@@ -263,6 +265,18 @@ class ReportTest(unittest.TestCase):
             path = self.root / "image.exr"
             synthetic.write_exr(path, image, compression, kind)
             numpy.testing.assert_array_equal(exr.read(path), image.astype(kind).astype(numpy.float32))
+
+    def test_leaves_nothing_behind(self):
+        """If this fails, a report that was killed leaves half a page for good."""
+        dead = subprocess.Popen([sys.executable, "-c", ""])
+        dead.wait()
+        path = self.root / "page.html"
+        names = [self.root / f".page.html.{socket.gethostname()}.{pid}" for pid in (dead.pid, os.getppid())]
+        for name in names:
+            name.write_text("half a page")
+        write(path, "a page")
+        self.assertEqual(path.read_text(), "a page")
+        self.assertEqual([name.exists() for name in names], [False, True], "who still writes is left alone")
 
     def test_damaged_files_are_named(self):
         folder = self.root / "damaged"

@@ -98,7 +98,7 @@ public:
         if (named_) solveAll(configurations(*named_), "budgets");
         std::vector<Configuration> all;
         for (std::size_t technique = 0; technique < study_.techniques.size(); ++technique)
-            if (study_.techniques[technique].solve) std::ranges::copy(configurations(technique), std::back_inserter(all));
+            if (study_.techniques[technique].solve) std::ranges::move(configurations(technique), std::back_inserter(all));
         if (place_.problem.empty() && !place_.stops()) solveAll(all, "budgets' knobs");
         Equal equal;
         for (const Configuration& configuration : all) {
@@ -116,6 +116,7 @@ private:
         for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
             for (auto& knobs : combinations(study_.techniques[technique]))
                 all.push_back({scene, technique, knobs, configurationKey(scene, technique, knobs), {}});
+        for (Configuration& configuration : all) configuration.name = nameOf(configuration);
         return all;
     }
 
@@ -150,14 +151,13 @@ private:
     }
 
     void solveAll(std::vector<Configuration> configurations, const char* what) {
-        for (Configuration& configuration : configurations) configuration.name = nameOf(configuration);
         const std::size_t all = configurations.size();
         std::erase_if(configurations, [&](const Configuration& c) { return file_.find(c.name) != nullptr; });
         if (configurations.empty()) return;
         if (place_.shard.count > 1 && study_.equal->kind == Budget::Kind::time)
             throw Error(study_.equal->where, "shards would each solve for a time of their own", "run the study once without --shard first, as far as its first run");
         Work work{.what = what, .count = fmt::format("{} of {} {}", configurations.size(), all, what)};
-        for (const Configuration& configuration : configurations) work.items.push_back({.group = configuration.scene});
+        for (const Configuration& configuration : configurations) work.items.push_back({.group = configuration.scene, .scene = configuration.scene});
         work.open = [&] { return stage_.workDevice(); };
         work.make = [&](std::size_t item) { return solveOne(configurations[item]); };
         work.take = [&](std::size_t item, const std::string& text) {

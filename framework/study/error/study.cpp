@@ -8,8 +8,10 @@
 #include <framework/study/report/images.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -43,7 +45,7 @@ private:
         const std::vector<Piece> pieces = missingPieces();
         if (pieces.empty()) return;
         Work work{.what = "runs"};
-        for (const Piece& piece : pieces) work.items.push_back({.group = piece.half ? piece.half->scene : runs_[piece.run].scene, .opens = piece.half.has_value()});
+        for (const Piece& piece : pieces) work.items.push_back(itemOf(piece));
         const auto left = std::ranges::count_if(pieces, [](const Piece& piece) { return !piece.half; });
         work.count = fmt::format("{} of {} runs", left, runs_.size());
         ResultFile results(place_.file);
@@ -69,6 +71,17 @@ private:
     }
     bool hasImages(const std::string& name) const {
         return images_.empty() || std::ranges::all_of(study_.measure, [&](int offset) { return isFile(imageFile(images_, name, offset)); });
+    }
+
+    /// A runner serves all runs of a configuration, so they are one group; but where times are judged, techniques take turns, that what slows the machine
+    /// for a while slows all alike.
+    WorkItem itemOf(const Piece& piece) {
+        if (piece.half) return {.group = groups_++, .scene = piece.half->scene, .opens = true};
+        const StudyRun& run = runs_[piece.run];
+        const std::string key = study_.judgesTime() ? std::to_string(run.scene) : fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+        const auto [place, isNew] = configurations_.emplace(key, groups_);
+        groups_ += isNew;
+        return {.group = place->second, .scene = run.scene};
     }
 
     std::string make(const Piece& piece) {
@@ -119,6 +132,8 @@ private:
     Equal equal_;
     std::vector<StudyRun> runs_;
     std::vector<std::string> names_;
+    std::size_t groups_ = 0;                             ///< of work
+    std::map<std::string, std::size_t> configurations_;  ///< their groups
     std::unique_ptr<SceneReferences> references_;  ///< of the scene of the last run
 };
 

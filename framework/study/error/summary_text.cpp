@@ -101,9 +101,9 @@ private:
     }
     bool isAblation(const Comparison& c) const { return study_.techniques[summary_.cells[c.cell].technique].ablation.has_value(); }
     static bool isPaired(const Comparison* c) { return c->rays.paired; }
-    /// Of the first metric, by whose middle the parts are ranked.
+    /// Of the first metric over the whole frame, by whose middle the parts are ranked.
     double lossOf(const Comparison& c) const {
-        const auto found = c.metrics.find(measuresOf(study_).front().name());
+        const auto found = c.metrics.find(study_.metrics.front());
         return found == c.metrics.end() ? 0 : found->second.middle();
     }
     std::string nameOf(const Comparison& c) const {
