@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 # Writes <lodestir/sources.h>: a hash of the C++ that frames and their errors come from, all of framework/ but what commands, windows and reports are made
-# by. Results of studies are named by it, so it is made anew with every change of these files, and is the same at any commit and in any folder otherwise.
+# by and what rows are summed up with. Results of studies are named by it, so it is made anew with every change of these files, and is the same at any commit and in any folder otherwise.
 if(CMAKE_SCRIPT_MODE_FILE)
     file(GLOB_RECURSE files RELATIVE ${root} ${root}/*.cpp ${root}/*.h)
-    list(FILTER files EXCLUDE REGEX "^app/|^main.cpp|/report/")
+    list(FILTER files EXCLUDE REGEX "^app/|^main.cpp|/report/|^study/workers|^study/error/(comparison|decomposition|exponent|statistics|summary)")
     list(SORT files)
     foreach(file ${files})
         file(SHA256 ${root}/${file} hash)

@@ -2,6 +2,7 @@
 // run.json: what was run, on what, and what each frame cost.
 #pragma once
 #include <framework/app/session.h>
+#include <framework/graph/ray_purposes.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -10,9 +11,6 @@
 #include <string>
 
 namespace lodestir {
-
-/// Names of the ray purposes, in the ledger's order.
-inline constexpr std::array<std::string_view, RAYS_PURPOSES> rayPurposes{"primary", "nee", "continue", "replay", "connect", "visibility", "steps"};
 
 /// One member of "frames".
 nlohmann::ordered_json frameJson(const FrameReport& frame, const std::map<std::string, double>& metrics, bool countSteps);

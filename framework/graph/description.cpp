@@ -304,6 +304,7 @@ Description readDescription(Json source, const Path& file, const GraphOptions& o
     }
     if (options.variant) applyVariants(description.source, *options.variant, options.variantWhere.file.empty() ? Where{file.string()} : options.variantWhere);
     description.source.remove("variants");
+    for (const Json& patch : options.patches) description.source.merge(patch);
     applyOptions(description.source, options, problems);
     DescriptionReader(description, problems).read();
     problems.raise();

@@ -53,7 +53,7 @@ struct Description {
     Json source;                        ///< the file after the variant's merge patch and all overrides, without "variants"
 };
 
-/// What the command line (or a study) changes in a graph. Applied in this order: variant, the fields, `set`.
+/// What the command line (or a study) changes in a graph. Applied in this order: variant, patches, the other fields, `set`.
 struct GraphOptions {
     std::optional<Path> scene;  ///< relative to the working folder
     std::optional<int> frames;
@@ -63,6 +63,7 @@ struct GraphOptions {
     std::optional<std::string> variant;  ///< several joined by " + " are applied one after the other
     Where variantWhere = {};             ///< of that name; empty: it is told at the graph file
     std::optional<std::string> show;  ///< "pass" or "pass.port"
+    std::vector<Json> patches = {};   ///< merged into the graph (RFC 7396) behind the variant, one after the other
 };
 
 /// Largest width and height of a frame, pixels.

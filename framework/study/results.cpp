@@ -45,7 +45,7 @@ std::uint64_t ResultRow::rays() const {
 OrderedJson toJson(const ResultRow& row) {
     OrderedJson costs = OrderedJson::object();
     for (const PassCost& pass : row.passes) costs[pass.name] = {{"ms", pass.milliseconds}, {"rays", pass.rays}};
-    return {{"scene", row.scene},
+    OrderedJson json{{"scene", row.scene},
             {"technique", row.technique},
             {"knobs", row.knobs},
             {"seed", row.seed},
@@ -58,6 +58,8 @@ OrderedJson toJson(const ResultRow& row) {
             {"exposure", row.exposure},
             {"device", row.device},
             {"run", row.run}};
+    if (row.budget) json["budget"] = {{"value", row.budget->budget}, {"reached", row.budget->reached}, {"inRange", row.budget->inRange}};
+    return json;
 }
 
 ResultRow rowOf(const OrderedJson& json) {
@@ -76,6 +78,10 @@ ResultRow rowOf(const OrderedJson& json) {
     if (json.contains("referenceDeviation"))  // rows of earlier versions have none
         for (const auto& [name, value] : json.at("referenceDeviation").items()) row.deviation[name] = numberOf(value);
     row.exposure = numberOf(json.at("exposure"));
+    if (json.contains("budget")) {
+        const OrderedJson& budget = json.at("budget");
+        row.budget = BudgetMet{budget.at("value"), budget.at("reached"), budget.at("inRange")};
+    }
     return row;
 }
 
@@ -88,6 +94,12 @@ void readLines(const Path& folder, const std::function<void(const OrderedJson&)>
     }
     std::ranges::sort(files);
     for (const Path& file : files) readFile(file, take);
+}
+
+std::string linesOf(const std::vector<ResultRow>& rows) {
+    std::string lines;
+    for (const ResultRow& row : rows) lines += toJson(row).dump() + "\n";
+    return lines;
 }
 
 std::vector<ResultRow> readResults(const Path& folder) {
@@ -120,17 +132,9 @@ ResultFile::ResultFile(const Path& path) : path_(path), handle_(-1) {
 
 ResultFile::~ResultFile() { ::close(handle_); }
 
-void ResultFile::add(const std::vector<ResultRow>& rows) {
-    std::vector<OrderedJson> lines;
-    for (const ResultRow& row : rows) lines.push_back(toJson(row));
-    addLines(lines);
-}
-
-void ResultFile::addLines(const std::vector<OrderedJson>& lines) {
-    std::string text;
-    for (const OrderedJson& line : lines) text += line.dump() + "\n";
-    for (std::size_t written = 0; written < text.size();) {
-        const ssize_t count = ::write(handle_, text.data() + written, text.size() - written);
+void ResultFile::add(const std::string& lines) {
+    for (std::size_t written = 0; written < lines.size();) {
+        const ssize_t count = ::write(handle_, lines.data() + written, lines.size() - written);
         if (count < 0 && errno != EINTR) fail(path_, errno);
         if (count > 0) written += std::size_t(count);
     }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,13 @@ struct PassCost {
     std::string name;
     double milliseconds = 0;
     std::map<std::string, std::uint64_t> rays;  ///< by purpose, all of them
+};
+
+/// What a technique with a budget was given to meet it.
+struct BudgetMet {
+    double budget = 0;    ///< milliseconds, or rays a pixel
+    double reached = 0;   ///< when its knob was chosen; what the run took stands beside it
+    bool inRange = true;  ///< false: no value of the knob costs so little, or so much
 };
 
 struct ResultRow {
@@ -32,12 +40,15 @@ struct ResultRow {
     std::map<std::string, double> noise;  ///< of the reference, already taken out of the metrics named here
     std::map<std::string, double> deviation;  ///< of the reference: standard deviation that it gives all seeds' metrics named here alike
     double exposure = 1;                  ///< that the metrics were measured at
+    std::optional<BudgetMet> budget;
 
     std::uint64_t rays() const;  ///< of all passes and purposes
 };
 
 /// One line's value. "frame" is counted from the event; passes and metrics look as in run.json.
 nlohmann::ordered_json toJson(const ResultRow& row);
+/// A line each.
+std::string linesOf(const std::vector<ResultRow>& rows);
 /// nlohmann's exceptions where a member is missing or of another kind.
 ResultRow rowOf(const nlohmann::ordered_json& json);
 
@@ -57,8 +68,7 @@ public:
     ResultFile& operator=(const ResultFile&) = delete;
 
     /// Adds lines with one write, on the disk when it returns. Error when the file cannot be written.
-    void add(const std::vector<ResultRow>& rows);
-    void addLines(const std::vector<nlohmann::ordered_json>& lines);
+    void add(const std::string& lines);
 
 private:
     Path path_;

@@ -36,7 +36,9 @@ std::vector<StudyRun> expandRuns(const Study& study) {
 
 std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<Setting>& knobs, std::uint32_t seed) {
     if (study.paired) return seed;
-    const Hash place = Hash().add(study.techniques[technique].name + "\n" + knobJson(knobs).dump());
+    const auto& ablation = study.techniques[technique].ablation;
+    const std::size_t drawing = ablation ? ablation->whole : technique;
+    const Hash place = Hash().add(study.techniques[drawing].name + "\n" + knobJson(knobs).dump());
     return (seed + std::uint32_t(place.a)) % firstReferenceSeed;
 }
 

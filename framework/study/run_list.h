@@ -22,7 +22,7 @@ std::vector<std::vector<Setting>> combinations(const Technique& technique);
 
 /// The seed that a technique with knob values draws for one of the study's. Paired, it is the study's own: differences between techniques can
 /// be taken run by run, but what all of them show alike is one observation. Else it lies at a distance that follows from the technique's
-/// name and knobs, below the seeds of references.
+/// name and knobs, below the seeds of references; without some of its parts a technique draws what the whole draws.
 std::uint32_t drawnSeed(const Study& study, std::size_t technique, const std::vector<Setting>& knobs, std::uint32_t seed);
 
 /// Scene by scene, so that each is loaded once; within a scene seed by seed, so that a machine that grows slow or busy slows all techniques alike.

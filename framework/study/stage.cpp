@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <framework/core/is_file.h>
 #include <framework/core/log.h>
-#include <framework/graph/source.h>
 #include <framework/image/exr.h>
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
+#include <framework/study/measured_port.h>
 #include <framework/study/pixel_filter.h>
 #include <framework/study/stage.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
@@ -22,16 +23,6 @@ constexpr std::uint32_t seedsPerHalf = 1u << 30;
 ImageData colorOf(const ImageData& image, const std::string& name) {
     if (image.channels < 3) throw Error("the measured port " + name + " has no colour", "name one with \"port\"");
     return image.channels == 3 ? image : firstChannels(image, 3);
-}
-
-/// What stands before passes that make images for eyes: errors are measured in radiance.
-Source linearSource(const Graph& graph, Source source) {
-    while (true) {
-        const GraphNode& node = graph.nodes[std::size_t(source.node)];
-        const int in = node.pass->forDisplay ? bypassOf(*node.pass, source.port) : -1;
-        if (in < 0 || !node.inputs[std::size_t(in)]) return source;
-        source = *node.inputs[std::size_t(in)];
-    }
 }
 
 /// Puts a scene's policy of levels back in its place.
@@ -57,6 +48,11 @@ std::string samplesParameter(const Graph& graph, const Where& where) {
         }
     if (name.empty()) throw Error(where, "the reference has no pass with a parameter \"spp\"");
     return name;
+}
+
+Json placed(Json value, const Where& where) {
+    value.moveTo(where);
+    return value;
 }
 
 /// But for the frame that they belong to.
@@ -90,11 +86,11 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
                          .seed = seed,
                          .set = choice.set,
                          .variant = choice.variant,
-                         .variantWhere = choice.variantWhere};
+                         .variantWhere = choice.variantWhere,
+                         .patches = choice.patches};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
-    staged.port =
-        choice.port.empty() ? linearSource(staged.graph, staged.graph.show) : findSource(staged.graph, choice.port, choice.portWhere);
+    staged.port = measuredPort(staged.graph, choice);
     const Port& port = staged.graph.port(staged.port);
     const Where& where = choice.port.empty() ? choice.where : choice.portWhere;
     if (port.type.kind != PortType::Kind::image)
@@ -127,9 +123,13 @@ void Stage::check() {
             referenceFilters = filtersOf(reference.graph, reference.port);
         });
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
+        for (const Mask& mask : study_.masks)
+            if (mask.graph) attempt([&] { build(*mask.graph, {}, scene, 0); });
+    for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         for (const Technique& technique : study_.techniques)
-            for (const auto& knobs : combinations(technique))
+            for (auto& knobs : combinations(technique))
                 attempt([&] {
+                    if (technique.solve) knobs.push_back({technique.solve->name, placed(Json(technique.solve->high), technique.solve->where)});
                     const StagedGraph staged = build(technique.graph, knobs, scene, study_.seeds.front());
                     expectSameFilter(study_, technique, filtersOf(staged.graph, staged.port), referenceFilters);
                 });
@@ -139,8 +139,9 @@ void Stage::check() {
 const Scene& Stage::scene(std::size_t index) {
     if (loaded_ != index) {
         loaded_.reset();
+        runners_.clear();
         scene_ = loadScene(study_.scenes[index].file);
-        content_ = contentOf(scene_);
+        content_ = lodestir::contentOf(scene_);
         loaded_ = index;
     }
     return scene_;
@@ -152,17 +153,29 @@ const Hash& Stage::sceneContent(std::size_t index) {
 }
 
 std::string Stage::nameOf(const StudyRun& run) {
+    const std::string key = fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+    const auto [place, isNew] = contents_.try_emplace(key);
+    if (isNew) place->second = contentOf(run);
+    return Hash(place->second).addValue(run.seed).hex();
+}
+
+/// Of a run but for its seed.
+Hash Stage::contentOf(const StudyRun& run) {
     const StudyGraph& choice = study_.techniques[run.technique].graph;
-    const StagedGraph staged = build(choice, run.knobs, run.scene, run.seed), reference = build(study_.reference, {}, run.scene, 0);
     Hash hash;
-    hash.addValue(sceneContent(run.scene)).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
-    hash.addValue(contentOf(reference.graph)).add(reference.graph.nameOf(reference.port)).addValue(study_.referenceSamples);
-    if (needsSeen(study_)) hash.addValue(contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
+    const auto add = [&](const StagedGraph& staged) { hash.addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)); };
+    hash.addValue(sceneContent(run.scene));
+    add(build(choice, run.knobs, run.scene, 0));
+    add(build(study_.reference, {}, run.scene, 0));
+    hash.addValue(study_.referenceSamples);
+    if (needsSeen(study_)) hash.addValue(lodestir::contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
+    for (const Mask& mask : study_.masks)
+        if (mask.graph) add(build(*mask.graph, {}, run.scene, 0));
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
     for (const int offset : study_.techniques[run.technique].clear) hash.addValue(offset);
-    return hash.hex();
+    return hash;
 }
 
 StagedGraph Stage::buildReference(std::size_t scene, int samples) {
@@ -181,45 +194,57 @@ ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) {
     return image;
 }
 
+void Stage::runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take) {
+    runner.setFrame(std::uint32_t(study_.event - study_.warmup));
+    for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
+        if (std::ranges::find(clear, offset) != clear.end()) runner.reset();
+        FrameReport report = runner.run();
+        if (study_.isMeasured(offset)) take(report);
+    }
+}
+
 std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     const Technique& technique = study_.techniques[run.technique];
-    StagedGraph staged = build(technique.graph, run.knobs, run.scene, run.seed);
-    const std::unique_ptr<Runner> runner = makeRunner(staged, run.scene);
-    runner->setFrame(std::uint32_t(study_.event - study_.warmup));
+    scene(run.scene);  // a new one ends the runners of another
+    const auto build = [&] { return this->build(technique.graph, run.knobs, run.scene, run.seed); };
+    KeptRunner& kept = runners_.get(renderer_.device(), fmt::format("{} {}", run.technique, knobJson(run.knobs).dump()), build,
+                                    [&](StagedGraph& staged) { return makeRunner(staged, run.scene); });
+    kept.staged.graph.description.seed = run.seed;
     std::vector<StagedFrame> frames;
-    for (int offset = -study_.warmup; offset <= study_.measure.back(); ++offset) {
-        if (std::ranges::find(technique.clear, offset) != technique.clear.end()) runner->reset();
-        FrameReport report = runner->run();
-        if (!study_.isMeasured(offset)) continue;
-        frames.push_back({std::move(report), imageOf(*runner, staged)});
-    }
+    runFrames(*kept.runner, technique.clear, [&](FrameReport& report) { frames.push_back({std::move(report), imageOf(*kept.runner, kept.staged)}); });
     return frames;
 }
 
-Halves Stage::reference(std::size_t sceneIndex, int offset, const Path& folder, bool finest) {
+std::vector<ImageData> Stage::renderMask(const StudyGraph& graph, std::size_t scene) {
+    StagedGraph staged = build(graph, {}, scene, study_.seeds.front());
+    const std::unique_ptr<Runner> runner = makeRunner(staged, scene);
+    std::vector<ImageData> images;
+    runFrames(*runner, {}, [&](FrameReport&) { images.push_back(runner->readImage(staged.port)); });
+    return images;
+}
+
+std::array<ReferenceHalf, 2> Stage::referenceHalves(std::size_t sceneIndex, int offset, const Path& folder, bool finest) {
     const Hash& sceneHash = sceneContent(sceneIndex);
     const PolicyKeeper policy(scene_);
     if (finest) scene_.lod.mode = LodMode::finest;
-    StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
-    const std::string samplesName = samplesParameter(staged.graph, study_.reference.where);
+    const StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
     const int frame = firstAlike(study_, scene_, study_.event + offset);
     Hash content;
-    content.addValue(sceneHash).addValue(contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
+    content.addValue(sceneHash).addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
     if (finest) content.add("finest");
-    std::unique_ptr<Runner> runner;  // of both halves
     const auto half = [&](std::uint32_t index) {
-        const Path file = folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"));
-        if (isFile(file)) return readExr(file);
-        if (!runner) {
-            setParameter(staged.graph, samplesName, Json(samplesAFrame(staged.graph)));
-            runner = makeRunner(staged, sceneIndex);
-        }
-        ImageData image = renderHalf(staged, *runner, samplesName, frame, index);
-        writeExr(file, image, {.attributes = {{"lodestir", staged.graph.resolved().dump(-1)}}});
-        return image;
+        return ReferenceHalf{sceneIndex, frame, finest, index, folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"))};
     };
-    ImageData a = half(0);
-    return {std::move(a), half(1)};
+    return {half(0), half(1)};
+}
+
+void Stage::makeHalf(const ReferenceHalf& half) {
+    scene(half.scene);
+    const PolicyKeeper policy(scene_);
+    if (half.finest) scene_.lod.mode = LodMode::finest;
+    StagedGraph staged = build(study_.reference, {}, half.scene, 0);
+    const std::string attribute = staged.graph.resolved().dump(-1);
+    writeExr(half.file, renderHalf(staged, half), {.attributes = {{"lodestir", attribute}}});
 }
 
 Seen Stage::see(std::size_t index) { return seeFrames(renderer_, study_, study_.scenes[index], scene(index)); }
@@ -230,20 +255,23 @@ int Stage::samplesAFrame(const Graph& graph) const {
 }
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
-ImageData Stage::renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half) {
+ImageData Stage::renderHalf(StagedGraph& staged, const ReferenceHalf& half) {
+    const std::string samplesName = samplesParameter(staged.graph, study_.reference.where);
+    setParameter(staged.graph, samplesName, Json(samplesAFrame(staged.graph)));
+    const std::unique_ptr<Runner> runner = makeRunner(staged, half.scene);
     const int total = study_.referenceSamples / 2;
     const glm::uvec2 size = staged.graph.description.size;
     std::vector<double> sum(std::size_t(size.x) * size.y * 3);
-    std::uint32_t seed = firstReferenceSeed + half * seedsPerHalf;
-    log::Progress progress(fmt::format("reference of frame {}, half {}", frame, half == 0 ? "A" : "B"), std::size_t(total));
+    std::uint32_t seed = firstReferenceSeed + half.index * seedsPerHalf;
+    log::Progress progress(fmt::format("reference of frame {}, half {}", half.frame, half.index == 0 ? "A" : "B"), std::size_t(total));
     for (int done = 0; done < total; ++seed) {
         const int samples = std::min(samplesAFrame(staged.graph), total - done);
         setParameter(staged.graph, samplesName, Json(samples));
         staged.graph.description.seed = seed;
-        runner.reset();
-        runner.setFrame(std::uint32_t(frame));
-        runner.run();
-        const ImageData image = imageOf(runner, staged);
+        runner->reset();
+        runner->setFrame(std::uint32_t(half.frame));
+        runner->run();
+        const ImageData image = imageOf(*runner, staged);
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]) * samples / total;
         done += samples;
         progress.advance(std::size_t(samples));

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Where a study's graphs are rendered: one device, one scene at a time, every run in a fresh runner, so that no run knows of another.
+// Where a study's graphs are rendered: one device, one scene at a time, every run with a history that is void, so that no run knows of another.
 #pragma once
 #include <framework/graph/renderer.h>
 #include <framework/scene/scene.h>
-#include <framework/study/error/halves.h>
 #include <framework/study/error/seen.h>
+#include <framework/study/kept_runners.h>
 #include <framework/study/run_list.h>
+#include <framework/study/workers.h>
 
+#include <array>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,15 +22,18 @@ namespace lodestir {
 /// screen.
 inline constexpr std::uint64_t samplesPerFrame = 1 << 23;
 
-/// A graph for one scene, checked, and what is measured of it.
-struct StagedGraph {
-    Graph graph;
-    Source port;  ///< an image in linear radiance
-};
-
 struct StagedFrame {
     FrameReport report;
     ImageData image;  ///< three channels
+};
+
+/// One of the two independent images that a reference is made of.
+struct ReferenceHalf {
+    std::size_t scene = 0;
+    int frame = 0;  ///< of the scene
+    bool finest = false;
+    std::uint32_t index = 0;  ///< 0: A, 1: B
+    Path file;
 };
 
 class Stage {
@@ -40,6 +47,7 @@ public:
 
     const gpu::DeviceFacts& device() { return renderer_.device().facts(); }
     RayBody rays() { return renderer_.rays(); }
+    WorkDevice workDevice() { return {device().name, device().type == "cpu"}; }
     const Scene& scene(std::size_t index);  ///< loaded unless it was the last one asked for
     const Hash& sceneContent(std::size_t index);
     /// Hash of all that the frames of a run depend on but the device.
@@ -54,21 +62,29 @@ public:
 
     /// The measured frames of a run.
     std::vector<StagedFrame> render(const StudyRun& run);
-    /// The reference of a measured frame (an offset from the event), from `folder` where it holds one for the same content. `finest`: of the
-    /// scene at its finest levels.
-    Halves reference(std::size_t scene, int offset, const Path& folder, bool finest = false);
+    /// A mask's port in the measured frames: its channels as they are.
+    std::vector<ImageData> renderMask(const StudyGraph& graph, std::size_t scene);
+    /// The halves of the reference of a measured frame (an offset from the event), named by their content. `finest`: of the scene at its finest levels.
+    std::array<ReferenceHalf, 2> referenceHalves(std::size_t scene, int offset, const Path& folder, bool finest);
+    /// Renders one, and writes its file.
+    void makeHalf(const ReferenceHalf& half);
     /// What is seen in the measured frames besides radiance.
     Seen see(std::size_t scene);
 
 private:
+    /// Runs a graph from the warm-up to the last measured frame; `take` reads the measured ones.
+    void runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take);
+    Hash contentOf(const StudyRun& run);
     int samplesAFrame(const Graph& graph) const;  ///< of a reference, at most
-    ImageData renderHalf(StagedGraph& staged, Runner& runner, const std::string& samplesName, int frame, std::uint32_t half);
+    ImageData renderHalf(StagedGraph& staged, const ReferenceHalf& half);
 
     const Study& study_;
     Renderer renderer_;
     std::optional<std::size_t> loaded_;
     Scene scene_;
     Hash content_;
+    std::map<std::string, Hash> contents_;  ///< of configurations
+    KeptRunners runners_;  ///< of that scene; behind what they are made of
 };
 
 }  // namespace lodestir

@@ -40,6 +40,7 @@ public:
         study_.measure = {0};
         if (const Json* frames = fields.find("frames")) readFrames(*frames);
         if (const Json* reference = fields.require("reference")) readReference(*reference);
+        if (study_.kind == StudyKind::error) readBudget(fields.find("equal"));
         readTechniques(fields.require("techniques"));
         attempt([&] { study_.paired = readFlag(fields.find("paired"), "\"paired\""); });
         if (study_.kind == StudyKind::ensemble) {
@@ -51,10 +52,13 @@ public:
             study_.metrics = readNames(fields.find("metrics"), "metric", metrics, {"relmse", "mse"});
             checkSteps(fields.find("metrics"));
             study_.charts = readNames(fields.find("charts"), "chart", chartNames(), chartNames());
-            readMask(fields);
+            readMasks(fields);
+            readBaseline(fields);
+            attempt([&] { study_.decompose = readFlag(fields.find("decompose"), "\"decompose\""); });
         }
         fields.finish();
         problems_.raise();
+        checkBudget();
         checkRuns();
         return std::move(study_);
     }
@@ -248,10 +252,85 @@ private:
                               "add the frame before to \"measure\"");
     }
 
-    void readMask(Fields& fields) {
+    /// "switched", and those that ports of graphs say.
+    void readMasks(Fields& fields) {
         std::size_t mask = 0;
         fields.choice("mask", mask, {"none", "switched"});
-        study_.maskSwitched = mask == 1;
+        if (mask == 1) study_.masks.push_back({.name = "switched", .graph = {}});
+        attempt([&] {
+            const Json* masks = fields.find("masks");
+            if (!masks) return;
+            for (const auto& [name, value] : masks->members("\"masks\"")) {
+                if (name.empty() || name.find('.') != name.npos || name == "finest" || name == "switched")
+                    throw Error(value.keyWhere(), fmt::format("a mask can't be named \"{}\"", name), "its name stands behind that of a metric, as in relmse.name");
+                StudyGraph graph;
+                if (value.isString()) {
+                    graph = {.graph = graphFolder() / "framework/seen.json", .port = value.asString(), .where = value.where(), .portWhere = value.where()};
+                } else {
+                    Fields members(value, fmt::format("mask \"{}\"", name), problems_);
+                    readGraph(members, graph);
+                    members.finish();
+                }
+                study_.masks.push_back({name, std::move(graph)});
+            }
+        });
+    }
+
+    std::size_t techniqueNamed(const Json& value, const char* what) const {
+        const std::string& name = value.asString(what);
+        const auto found = std::ranges::find(study_.techniques, name, &Technique::name);
+        if (found != study_.techniques.end()) return std::size_t(found - study_.techniques.begin());
+        std::vector<std::string> known;
+        for (const Technique& technique : study_.techniques) known.push_back(technique.name);
+        throw Error(value.where(), fmt::format("no technique \"{}\"", name), didYouMean(name, known));
+    }
+    void readBaseline(Fields& fields) {
+        attempt([&] {
+            if (const Json* baseline = fields.find("baseline")) study_.baseline = techniqueNamed(*baseline, "\"baseline\"");
+        });
+    }
+
+    /// One cost that all are given: a number, or the name of a technique that takes it.
+    void readBudget(const Json* equal) {
+        attempt([&] {
+            if (!equal) return;
+            const auto& members = equal->members("\"equal\"");
+            if (members.size() != 1 || (members[0].first != "time" && members[0].first != "rays"))
+                throw Error(equal->where(), "\"equal\" needs a \"time\" or \"rays\"", "write { \"time\": milliseconds } or { \"rays\": rays a pixel }");
+            const Json& value = members[0].second;
+            Budget budget{.kind = members[0].first == "time" ? Budget::Kind::time : Budget::Kind::rays, .where = value.where()};
+            if (value.isString()) {
+                budget.technique = value.asString();
+            } else {
+                budget.value = value.asNumber("the budget");
+                if (!(budget.value > 0)) throw Error(value.where(), fmt::format("the budget must be above 0, not {:g}", budget.value));
+            }
+            study_.equal = budget;
+        });
+    }
+    /// Its technique is there and has a cost of its own, and some technique is given the budget.
+    void checkBudget() const {
+        if (!study_.equal) return;
+        if (std::ranges::none_of(study_.techniques, [](const Technique& t) { return t.solve.has_value(); }))
+            throw Error(study_.equal->where, "no technique has a knob for the budget", "add \"solve\": { \"pass.parameter\": [least, most] } to one");
+        if (study_.equal->technique.empty()) return;
+        const Technique& named = study_.techniques[techniqueNamed(Json(study_.equal->technique), "the budget")];
+        if (named.solve || !named.vary.empty())
+            throw Error(study_.equal->where, fmt::format("\"{}\" has no cost of its own to give others", named.name), "name a technique without \"vary\" and \"solve\"");
+    }
+
+    void readSolve(const Json& solve, Technique& technique) {
+        const auto& members = solve.members("\"solve\"");
+        if (!study_.equal) throw Error(solve.keyWhere(), "there is no budget to solve for", "add \"equal\" to the study");
+        if (members.size() != 1) throw Error(solve.where(), "one knob is solved for", "write { \"pass.parameter\": [least, most] }");
+        const auto& [name, range] = members[0];
+        checkedName(name, Json(1), range.keyWhere());
+        const auto isSame = [&, &knob = name](const auto& other) { return other.name == knob; };
+        if (std::ranges::any_of(technique.graph.set, isSame) || std::ranges::any_of(technique.vary, isSame))
+            throw Error(range.keyWhere(), fmt::format("\"{}\" is set or varied, and solved for", name), "remove one of them");
+        if (range.items("a range").size() != 2) throw Error(range.where(), "a range must be [least, most]");
+        const int low = int(within(range.items()[0], "the least value", 0, maxFrame));
+        technique.solve = {name, low, int(within(range.items()[1], "the most", low, maxFrame)), range.keyWhere()};
     }
 
     void readReference(const Json& value) {
@@ -281,6 +360,10 @@ private:
                 if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
                 attempt([&] { technique.otherFilter = readFlag(fields.find("otherFilter"), "\"otherFilter\""); });
                 if (study_.kind == StudyKind::error) {
+                    if (const Json* solve = fields.find("solve")) attempt([&] { readSolve(*solve, technique); });
+                    std::size_t ablate = 0;
+                    fields.choice("ablate", ablate, {"none", "auto", "pairs"});
+                    technique.ablate = Ablate(ablate);
                     if (const Json* clear = fields.find("clear"))
                         attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });
                 } else {
@@ -341,10 +424,14 @@ private:
 
 std::vector<Measure> measuresOf(const Study& study) {
     std::vector<Measure> measures;
-    for (const bool finest : {false, true})
-        for (const bool switched : {true, false})
-            for (const std::string& metric : study.metrics)
-                if ((!finest || study.referenceFinest) && (!switched || study.maskSwitched)) measures.push_back({metric, switched, finest});
+    const auto add = [&](const std::string& mask, bool finest) {
+        for (const std::string& metric : study.metrics) measures.push_back({metric, mask, finest});
+    };
+    for (const bool finest : {false, true}) {
+        if (finest && !study.referenceFinest) continue;
+        for (const Mask& mask : study.masks) add(mask.name, finest);
+        add({}, finest);
+    }
     return measures;
 }
 

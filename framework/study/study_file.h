@@ -19,6 +19,7 @@ namespace lodestir {
 struct StudyGraph {
     Path graph;
     std::optional<std::string> variant;
+    std::vector<Json> patches;  ///< merged into the graph behind the variant
     std::vector<Setting> set;
     std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
     Where where;       ///< of the graph's name
@@ -31,6 +32,22 @@ struct Knob {
     std::vector<Json> values;
 };
 
+/// A parameter whose value is looked for, so that a technique costs what the study's budget says.
+struct SolvedKnob {
+    std::string name;  ///< "pass.parameter"
+    int low = 1, high = 1;
+    Where where;
+};
+
+/// Which parts of a technique are taken away, each by itself, or also every two of them.
+enum class Ablate { nothing, each, pairs };
+
+/// A technique that is another one without some of its parts.
+struct Ablation {
+    std::size_t whole = 0;           ///< technique
+    std::vector<std::string> parts;  ///< "pass" or "pass.parameter"
+};
+
 struct Technique {
     std::string name;
     StudyGraph graph;
@@ -39,6 +56,9 @@ struct Technique {
     bool control = false;    ///< of an ensemble: known to be unbiased, so that blaming it blames the study
     bool planted = false;    ///< of an ensemble: known to be biased, to see it caught
     bool otherFilter = false;  ///< it may have another pixel filter than its reference
+    std::optional<SolvedKnob> solve;   ///< where the study has a budget
+    Ablate ablate = Ablate::nothing;
+    std::optional<Ablation> ablation;  ///< what it is, where it was made by expandAblations()
 };
 
 /// A scene at one size of the image.
@@ -51,12 +71,28 @@ struct StudyScene {
     double pixels() const { return double(size.x) * size.y; }
 };
 
+/// Pixels that errors are measured at besides those of the whole frame.
+struct Mask {
+    std::string name;
+    std::optional<StudyGraph> graph;  ///< whose port says which, by values other than 0; none: where objects are seen that take another level from the event on
+};
+
 /// One number that a measured frame is judged by.
 struct Measure {
     std::string metric;
-    bool switched = false;  ///< only where objects are seen that take another level at the event or later
-    bool finest = false;    ///< against the scene at its finest levels, so that what a level loses counts too
-    std::string name() const { return metric + (switched ? ".switched" : "") + (finest ? ".finest" : ""); }
+    std::string mask;     ///< only at the pixels of that name; empty: at all
+    bool finest = false;  ///< against the scene at its finest levels, so that what a level loses counts too
+    std::string name() const { return metric + (mask.empty() ? "" : "." + mask) + (finest ? ".finest" : ""); }
+};
+
+/// What every technique may cost.
+struct Budget {
+    enum class Kind { time, rays };
+    Kind kind = Kind::time;
+    double value = 0;        ///< milliseconds a frame, or rays a pixel
+    std::string technique{};   ///< or what that one costs
+    Where where{};
+    std::string_view unit() const { return kind == Kind::time ? "ms" : "rays a pixel"; }
 };
 
 /// What a study asks: how large errors are, or whether the mean of many runs is right.
@@ -77,10 +113,19 @@ struct Study {
     int referenceSamples = 0;  ///< a pixel, both halves together
     std::vector<Technique> techniques;
     std::vector<std::string> metrics, charts;  ///< none in an ensemble
-    bool maskSwitched = false;                 ///< errors where objects switch levels are measured beside those of the whole frame
+    std::vector<Mask> masks;                   ///< errors there are measured beside those of the whole frame
+    std::size_t baseline = 0;                  ///< technique that others are compared with
+    std::optional<Budget> equal;               ///< that techniques with a knob to solve for are given
+    bool decompose = false;                    ///< images of all runs are kept, and bias and variance told apart
     bool referenceFinest = false;              ///< errors against the finest levels are measured beside those against the levels shown
     double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
 
+    /// Does it conclude anything from how long frames take?
+    bool judgesTime() const {
+        return kind == StudyKind::error && ((equal && equal->kind == Budget::Kind::time) || std::ranges::any_of(charts, [](const std::string& chart) {
+                   return chart == "error_vs_time" || chart == "time_by_pass";
+               }));
+    }
     bool isMeasured(int offset) const { return std::ranges::find(measure, offset) != measure.end(); }
 };
 

@@ -3,6 +3,7 @@
 #include "../end_to_end/source_folder.h"
 #include "../temporary_folder.h"
 
+#include <framework/study/ablation.h>
 #include <framework/study/stage.h>
 
 #include <set>
@@ -15,7 +16,9 @@ namespace {
 /// What is said of a study before anything runs; empty: nothing.
 std::string complaintOf(const Path& file) {
     try {
-        const Study study = loadStudy(file);
+        Study study = loadStudy(file);
+        Renderer renderer;
+        expandAblations(study, renderer);
         Stage(study, {}).check();
         return {};
     } catch (const Error& error) {

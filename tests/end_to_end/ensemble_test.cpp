@@ -109,7 +109,10 @@ TEST_F(EnsembleStudyTest, JudgesResumesAndShards) {
     EXPECT_EQ(filesOf(folder / "out/images"),
               (std::set<std::string>{"cornell.reference.0.exr", "cornell.same.0.exr", "cornell.same.0.sigmas.png", "cornell.shorter.0.exr",
                                      "cornell.shorter.0.sigmas.png"}));
-    EXPECT_NE(readText(folder / "out/report.html").find("Power"), std::string::npos);
+    const OrderedJson summary = readJson(folder / "out/summary.json");
+    EXPECT_EQ(summary["cells"][0]["faults"].size(), 4u);
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / summary["cells"][1]["image"].get<std::string>()));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out" / summary["scenes"][0]["reference"].get<std::string>()));
 
     // As if it had been killed in its fourth line.
     const std::string text = readText(folder / "out/results.jsonl");

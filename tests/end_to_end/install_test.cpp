@@ -85,7 +85,8 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
     for (const char* file :
          {"lib/liblodestir.so", "lib/lodestir/passes/basic/path_tracer/libpath_tracer.so", "lib/lodestir/passes/basic/path_tracer/path_tracer.comp",
           "share/lodestir/shaders/trace/trace.glsl", "share/lodestir/graphs/restir_pt.json", "share/lodestir/scenes/rock.glb",
-          "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/docs/files.md", "share/lodestir/docs/passes.md",
+          "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/scripts/report/__main__.py", "share/lodestir/scripts/report/templates/report.html",
+          "share/lodestir/scripts/report/viewer.js", "share/lodestir/docs/files.md", "share/lodestir/docs/passes.md",
           "include/lodestir/framework/pass/pass.h", "include/lodestir/passes/restir/reservoir.h"})
         EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
 
@@ -98,6 +99,15 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
     succeeds({program, "run", example.string(), "--size", "32x18", "--out", out});
     EXPECT_EQ(meanOf(readExr(folder / "out/display.0.exr")), 0.25);
     succeeds({program, "check", (prefix / "share/lodestir/graphs/restir_pt.json").string()});
+
+    // A study draws its report by the installed scripts; where Python lacks a package, it says which.
+    const std::string tracer = (prefix / "share/lodestir/graphs/path_tracer.json").string();
+    writeFile(folder / "study.json", R"({ "format": 1, "scenes": [")" + (prefix / "share/lodestir/scenes/cornell.json").string() + R"("], "size": [16, 9], "seeds": 2,
+        "reference": { "graph": ")" + tracer + R"(", "spp": 8 }, "techniques": { "one": { "graph": ")" + tracer + R"(" } }, "charts": ["error_vs_time"] })");
+    const Output study = execute({program, "study", (folder / "study.json").string(), "--out", (folder / "study").string()});
+    EXPECT_EQ(study.exitCode, 0) << study.err;
+    EXPECT_TRUE(std::filesystem::exists(folder / "study/summary.json"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "study/report.html") || study.err.find("install python3") != std::string::npos) << study.err;
 
     // A pass outside of the tree, from the installed template.
     const Path mine = folder / "mine";

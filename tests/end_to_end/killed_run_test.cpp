@@ -4,6 +4,10 @@
 
 #include <framework/image/png.h>
 
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <sstream>
 #include <thread>
 
 namespace lodestir::test {
@@ -88,35 +92,62 @@ std::vector<std::string> scrapsIn(const Path& folder) {
     return names;
 }
 
-// If this fails, a study that is stopped and resumed again and again, as on a cluster, ends with rows missing or doubled, or a full disk.
+/// By what a row is of: what was measured, times aside. Fails the test where a row is there twice.
+std::map<std::string, OrderedJson> measuredIn(const Path& file) {
+    std::map<std::string, OrderedJson> byRun;
+    std::istringstream lines(readText(file));
+    for (std::string line; std::getline(lines, line);) {
+        const OrderedJson row = OrderedJson::parse(line);
+        const std::string key = row["run"].get<std::string>() + row["frame"].dump();
+        EXPECT_FALSE(byRun.contains(key)) << "twice: " << line;
+        byRun[key] = row["metrics"];
+    }
+    return byRun;
+}
+
+// If this fails, a study that is stopped and resumed again and again, as on a cluster, ends with rows missing or doubled, or a full disk. Killed at moments
+// that are drawn anew for each of LODESTIR_KILLS seeds (3), by one process and by two.
 TEST_F(KilledRun, StudiesResumeAfterAnyKill) {
     write("study.json", {{"format", 1},
                          {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
                          {"size", {24, 16}},
                          {"seeds", 12},
+                         {"frames", {{"measure", {0, 1}}}},
+                         {"charts", {"error_vs_rays"}},
                          {"reference", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"spp", 8}}},
-                         {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}}}}});
-    const Path out = folder / "out";
-    const Arguments command{LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", out.string(), "--resume"};
+                         {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}},
+                                         {"two", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}}}}}});
+    const auto command = [&](const std::string& out, int jobs) {
+        return Arguments{LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", (folder / out).string(), "--resume", "--jobs", std::to_string(jobs)};
+    };
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_EQ(runProcess(command("undisturbed", 1)).exitCode, 0);
+    const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::map<std::string, OrderedJson> expected = measuredIn(folder / "undisturbed/results.jsonl");
+    ASSERT_EQ(expected.size(), 2u * 12u * 2u);
+    const char* asked = std::getenv("LODESTIR_KILLS");
     int killed = 0;
-    for (int round = 0; round < 4; ++round) {
-        Process process(command);
-        std::this_thread::sleep_for(std::chrono::milliseconds(400 + 370 * round));  // loading, references, runs, whichever the machine is at
-        if (!process.running()) break;
-        process.kill(SIGKILL);
-        process.wait(std::chrono::seconds(10));
-        ++killed;
+    for (int seed = 1; seed <= (asked ? std::atoi(asked) : 3); ++seed) {
+        std::mt19937 random{std::uint32_t(seed)};
+        const Arguments study = command("killed" + std::to_string(seed), 1 + seed % 2);
+        for (int round = 0; round < 3; ++round) {
+            Process process(study);
+            std::this_thread::sleep_for(std::chrono::duration<double>(whole * std::uniform_real_distribution<double>(0.1, 1)(random)));
+            if (!process.running()) break;
+            process.kill(SIGKILL);
+            process.wait(std::chrono::seconds(10));
+            ++killed;
+        }
+        const Output output = runProcess(study);
+        ASSERT_EQ(output.exitCode, 0) << output.err;
+        EXPECT_EQ(measuredIn(Path(study[4]) / "results.jsonl"), expected) << "seed " << seed;
+        EXPECT_EQ(readJson(Path(study[4]) / "summary.json")["missing"], 0);
+        EXPECT_TRUE(scrapsIn(study[4]).empty()) << scrapsIn(study[4])[0];
     }
     EXPECT_GT(killed, 0);
-    const Output output = runProcess(command);
-    ASSERT_EQ(output.exitCode, 0) << output.err;
-    const std::string rows = readText(out / "results.jsonl");
-    EXPECT_EQ(std::ranges::count(rows, '\n'), 12);
-    EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
-    EXPECT_TRUE(scrapsIn(out).empty()) << scrapsIn(out)[0];
 }
 
-// If this fails, what a study has measured so far can't be looked at when it is stopped.
+// If this fails, what a study has measured so far can't be looked at when it is stopped, or processes of it stay behind.
 TEST_F(KilledRun, AnInterruptedStudyReportsWhatItHas) {
     write("study.json",
           {{"format", 1},
@@ -125,20 +156,24 @@ TEST_F(KilledRun, AnInterruptedStudyReportsWhatItHas) {
            {"seeds", 5000},
            {"reference", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"spp", 8}}},
            {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}}}}});
-    const Path out = folder / "out";
-    Process process({LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", out.string()});
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
-    const auto rows = [&] {
-        return std::filesystem::exists(out / "results.jsonl") ? std::ranges::count(readText(out / "results.jsonl"), '\n') : 0;
-    };
-    while (rows() < 2 && process.running() && std::chrono::steady_clock::now() < end)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    process.kill(SIGINT);
-    const Output output = process.wait(std::chrono::seconds(60));
-    EXPECT_EQ(output.exitCode, 1) << output.err;
-    EXPECT_NE(output.err.find("interrupted by SIGINT; go on with --resume"), std::string::npos) << output.err;
-    EXPECT_GE(rows(), 2);
-    EXPECT_NE(readText(out / "report.html").find(std::to_string(5000 - rows()) + " runs are still missing"), std::string::npos);
+    for (const char* jobs : {"1", "2"}) {
+        const Path out = folder / jobs;
+        Process process({LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", out.string(), "--jobs", jobs});
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(100);
+        const auto rows = [&] {
+            return std::filesystem::exists(out / "results.jsonl") ? std::ranges::count(readText(out / "results.jsonl"), '\n') : 0;
+        };
+        while (rows() < 2 && process.running() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        process.kill(SIGINT);  // to all of its processes, as a terminal sends it
+        const Output output = process.wait(std::chrono::seconds(60));
+        EXPECT_EQ(output.exitCode, 1) << output.err;
+        EXPECT_NE(output.err.find("interrupted by SIGINT; go on with --resume"), std::string::npos) << output.err;
+        EXPECT_GE(rows(), 2);
+        EXPECT_LT(rows(), 5000);
+        EXPECT_EQ(measuredIn(out / "results.jsonl").size(), std::size_t(rows()));
+        EXPECT_EQ(readJson(out / "summary.json")["missing"], 5000 - rows());
+    }
 }
 
 // If this fails, a model or a map that was cut off is taken for a whole one.

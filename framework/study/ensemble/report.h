@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is said of an ensemble study: a table for terminals, and report.html.
+// What is said of an ensemble study: a table for terminals.
 #pragma once
 #include <framework/study/ensemble/results.h>
 
@@ -8,6 +8,5 @@
 namespace lodestir {
 
 std::string ensembleText(const Study& study, const EnsembleSummary& summary);
-std::string ensembleHtml(const Study& study, const EnsembleSummary& summary);
 
 }  // namespace lodestir

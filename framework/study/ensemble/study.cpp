@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <framework/core/log.h>
 #include <framework/image/exr.h>
 #include <framework/image/png.h>
 #include <framework/study/ensemble/images.h>
-#include <framework/study/ensemble/report.h>
 #include <framework/study/ensemble/study.h>
+#include <framework/study/report/images.h>
+#include <framework/study/report/report.h>
+#include <framework/study/report/summary_json.h>
 #include <framework/study/results.h>
 
 #include <fmt/format.h>
@@ -13,13 +14,6 @@
 
 namespace lodestir {
 namespace {
-
-/// Letters, digits and some signs; the rest becomes "_".
-std::string fileName(std::string text) {
-    for (char& c : text)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-    return text;
-}
 
 std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study& study, const EnsembleChunk& chunk, const std::string& name,
                                  const Path& images) {
@@ -42,47 +36,53 @@ std::vector<EnsembleRow> measure(EnsembleStage& runs, Stage& stage, const Study&
 }
 
 /// How the images of chunks converge. Writes the mean of the runs, and a map of where it isn't the reference's; the reference's own mean beside them.
-Convergence judgeImages(const Study& study, const EnsembleCell& cell, const Path& chunks, const Path& folder) {
+Convergence judgeImages(const Study& study, const EnsembleCell& cell, const Path& out) {
     constexpr double top = 5;  // sigmas of full colour
-    const std::vector<EnsembleImage> parts = readChunkImages(chunks, cell.chunks, cell.offset);
-    const EnsembleImage runs = joinImages(parts), reference = joinImages(readChunkImages(chunks, cell.referenceChunks, cell.offset));
-    const std::string scene = study.scenes[cell.scene].name;
-    const std::string name = fileName(fmt::format("{}.{}.{}", scene, labelOf(study, cell), cell.offset));
-    writeExr(folder / (name + ".exr"), firstChannels(runs.image, 3));
-    writeExr(folder / fileName(fmt::format("{}.reference.{}.exr", scene, cell.offset)), firstChannels(reference.image, 3));
-    writePng(folder / (name + ".sigmas.png"), divergingMap(sigmaMap(runs, reference), top));
+    const std::vector<EnsembleImage> parts = readChunkImages(out / "chunks", cell.chunks, cell.offset);
+    const EnsembleImage runs = joinImages(parts), reference = joinImages(readChunkImages(out / "chunks", cell.referenceChunks, cell.offset));
+    const Path file = out / ensembleImageFile(study, cell);
+    writeExr(file, firstChannels(runs.image, 3));
+    writeExr(out / ensembleReferenceFile(study, cell.scene, cell.offset), firstChannels(reference.image, 3));
+    writePng(Path(file).replace_extension(".sigmas.png"), divergingMap(sigmaMap(runs, reference), top));
     return convergenceOf(parts, reference);
 }
 
 }  // namespace
 
-EnsembleSummary runEnsemble(Stage& stage, const Study& study, const Path& out, const Path& file, const Shard& shard,
-                            const std::function<bool()>& stops) {
+EnsembleSummary runEnsemble(Stage& stage, const Study& study, StudyPlace& place) {
     EnsembleStage runs(stage, study);
+    const Path& out = place.out;
     const std::vector<EnsembleChunk> chunks = expandChunks(study);
     std::vector<std::string> names;
     for (const EnsembleChunk& chunk : chunks) names.push_back(runs.nameOf(chunk));
     const std::set<std::string> finished = finishedChunks(study, readEnsembleRows(out));
     std::vector<std::size_t> todo;
-    for (std::size_t i = 0; i < chunks.size(); ++i)
-        if (shard.holds(i) && !finished.contains(names[i])) todo.push_back(i);
+    Work work{.what = "chunks of runs"};
+    std::size_t series = 0;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        if (i > 0 && !chunks[i].isSeriesOf(chunks[i - 1])) ++series;
+        if (!place.shard.holds(i) || finished.contains(names[i])) continue;
+        todo.push_back(i);
+        work.items.push_back({.group = series});  // one runner serves all of it
+    }
 
     if (!todo.empty()) {
-        log::note("{} of {} chunks of runs to make on {}", todo.size(), chunks.size(), stage.device().name);
-        ResultFile results(file);
-        log::Progress progress("chunks of runs", todo.size());
-        for (const std::size_t i : todo) {
-            if (stops()) break;
-            std::vector<nlohmann::ordered_json> lines;
-            for (const EnsembleRow& row : measure(runs, stage, study, chunks[i], names[i], out / "chunks")) lines.push_back(toJson(row));
-            results.addLines(lines);
-            progress.advance();
-        }
+        ResultFile results(place.file);
+        work.count = fmt::format("{} of {} chunks of runs", todo.size(), chunks.size());
+        work.open = [&] { return stage.workDevice(); };
+        work.make = [&](std::size_t item) {
+            std::string lines;
+            for (const EnsembleRow& row : measure(runs, stage, study, chunks[todo[item]], names[todo[item]], out / "chunks")) lines += toJson(row).dump() + "\n";
+            return lines;
+        };
+        work.take = [&](std::size_t, const std::string& lines) { results.add(lines); };
+        work.stops = place.stops;
+        place.problem = doWork(work, place.jobs);
     }
     EnsembleSummary summary = summarizeEnsemble(study, chunks, names, readEnsembleRows(out));
     for (EnsembleCell& cell : summary.cells)
-        if (cell.complete) cell.convergence = judgeImages(study, cell, out / "chunks", out / "images");
-    writeFile(out / "report.html", ensembleHtml(study, summary));
+        if (cell.complete) cell.convergence = judgeImages(study, cell, out);
+    writeReport(out, summaryJson(study, summary));
     return summary;
 }
 

@@ -16,7 +16,9 @@ template <class T> std::vector<T> valuesOf(const std::vector<std::byte>& bytes) 
 
 }  // namespace
 
-bool needsSeen(const Study& study) { return study.maskSwitched || std::ranges::any_of(study.metrics, isTemporal); }
+bool needsSeen(const Study& study) {
+    return std::ranges::any_of(study.masks, [](const Mask& mask) { return !mask.graph; }) || std::ranges::any_of(study.metrics, isTemporal);
+}
 
 Graph seenGraph(Renderer& renderer, const StudyScene& file) {
     return renderer.build(graphFolder() / "framework/seen.json", {.scene = std::filesystem::absolute(file.file), .size = file.size});

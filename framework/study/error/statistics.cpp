@@ -66,6 +66,50 @@ Estimate estimateRatio(std::span<const double> numerators, std::span<const doubl
     return {.mean = ratio, .halfWidth = estimateMean(residuals).halfWidth, .count = int(numerators.size())};
 }
 
+Estimate estimateDifference(std::span<const double> values, std::span<const double> baseline) {
+    const Estimate a = estimateMean(values), b = estimateMean(baseline);
+    Estimate difference{.mean = a.mean - b.mean, .halfWidth = nan, .count = a.count + b.count};
+    if (a.count < 2 || b.count < 2) return difference;
+    const double spreadA = a.halfWidth / studentQuantile(0.975, a.count - 1), spreadB = b.halfWidth / studentQuantile(0.975, b.count - 1);
+    const double varianceA = spreadA * spreadA, varianceB = spreadB * spreadB, variance = varianceA + varianceB;
+    difference.halfWidth = 0;
+    if (!(variance > 0)) return difference;
+    const double freedom = variance * variance / (varianceA * varianceA / (a.count - 1) + varianceB * varianceB / (b.count - 1));
+    difference.halfWidth = studentQuantile(0.975, std::max(1, int(freedom))) * std::sqrt(variance);
+    return difference;
+}
+
+Estimate estimatePairedDifference(std::span<const double> values, std::span<const double> baseline) {
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < values.size(); ++i) differences.push_back(values[i] - baseline[i]);
+    return estimateMean(differences);
+}
+
+Estimate estimateExponent(std::span<const double> x, const std::vector<std::vector<double>>& runs) {
+    std::vector<double> logs, slopes;
+    for (const double value : x) logs.push_back(std::log(value));
+    const double centre = estimateMean(logs).mean;
+    double width = 0;
+    for (const double value : logs) width += (value - centre) * (value - centre);
+    for (const std::vector<double>& run : runs) {
+        double sum = 0;
+        for (std::size_t i = 0; i < logs.size(); ++i) sum += (logs[i] - centre) * std::log(run[i]);
+        slopes.push_back(sum / width);
+    }
+    return estimateMean(slopes);
+}
+
+Estimate estimateJackknife(double whole, std::span<const double> without) {
+    const auto n = double(without.size());
+    Estimate estimate{.mean = whole, .halfWidth = nan, .count = int(without.size())};
+    if (without.size() < 2) return estimate;
+    const double middle = estimateMean(without).mean;
+    double squares = 0;
+    for (const double value : without) squares += (value - middle) * (value - middle);
+    estimate.halfWidth = studentQuantile(0.975, estimate.count - 1) * std::sqrt(squares * (n - 1) / n);
+    return estimate;
+}
+
 double medianOf(std::vector<double> values) {
     if (values.empty()) return nan;
     std::ranges::sort(values);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a few independent runs say of the mean they are drawn from.
 #pragma once
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,15 @@ Estimate estimateMean(std::span<const double> values);
 Estimate withSharedError(Estimate estimate, double deviation);
 /// mean(numerators) / mean(denominators) of paired values; the interval is that of the linearised ratio (delta method).
 Estimate estimateRatio(std::span<const double> numerators, std::span<const double> denominators);
+/// mean(values) - mean(baseline) of values that are independent of each other: Welch's interval.
+Estimate estimateDifference(std::span<const double> values, std::span<const double> baseline);
+/// The same of values that belong together one by one: the interval of the mean of their differences.
+Estimate estimatePairedDifference(std::span<const double> values, std::span<const double> baseline);
+/// The exponent p of y ~ x^p, the slope of the straight line through the logarithms: least squares for each run by itself, `runs[i][k]` being what
+/// run i gave at x[k], and the interval over runs, because the values of one run may depend on each other. Values must be positive.
+Estimate estimateExponent(std::span<const double> x, const std::vector<std::vector<double>>& runs);
+/// What is told by all runs together and has no value of its own for each: `whole` of n runs, and `without[i]` of all but run i (jackknife).
+Estimate estimateJackknife(double whole, std::span<const double> without);
 /// Of the middle two where the number is even; NaN where there are none.
 double medianOf(std::vector<double> values);
 

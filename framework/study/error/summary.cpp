@@ -11,34 +11,44 @@ namespace {
 
 struct Samples {
     Cell cell;
-    std::vector<double> milliseconds, rays;
-    std::map<std::string, std::pair<double, double>> passes;  ///< sums of milliseconds and rays
+    std::map<std::string, PassSummary> passes;  ///< sums
     std::vector<std::string> passOrder;
     std::map<std::string, double> deviation;
 
     void add(const ResultRow& row) {
-        milliseconds.push_back(row.milliseconds);
-        rays.push_back(double(row.rays()));
+        cell.runs.push_back(row.run);
+        cell.drawn.push_back(row.seed);
+        cell.times.push_back(row.milliseconds);
+        cell.rayCounts.push_back(double(row.rays()));
         for (const PassCost& pass : row.passes) {
             const auto [place, isNew] = passes.try_emplace(pass.name);
             if (isNew) passOrder.push_back(pass.name);
-            place->second.first += pass.milliseconds;
-            for (const auto& [purpose, count] : pass.rays) place->second.second += double(count);
+            place->second.milliseconds += pass.milliseconds;
+            for (const auto& [purpose, count] : pass.rays) {
+                place->second.rays += double(count);
+                place->second.purposes[purpose] += double(count);
+            }
         }
         for (const auto& [name, value] : row.metrics) cell.values[name].push_back(value);
+        cell.exposure = row.exposure;
         cell.noise = row.noise;
+        cell.budget = row.budget;
         deviation = row.deviation;
     }
 
     Cell finish() {
-        cell.seeds = int(milliseconds.size());
+        cell.seeds = int(cell.times.size());
         if (cell.seeds == 0) return cell;
-        cell.milliseconds = medianOf(milliseconds);
-        cell.fastest = std::ranges::min(milliseconds);
-        cell.slowest = std::ranges::max(milliseconds);
-        cell.rays = estimateMean(rays);
-        for (const std::string& name : passOrder)
-            cell.passes.push_back({name, passes[name].first / cell.seeds, passes[name].second / cell.seeds});
+        cell.milliseconds = medianOf(cell.times);
+        cell.fastest = std::ranges::min(cell.times);
+        cell.slowest = std::ranges::max(cell.times);
+        cell.rays = estimateMean(cell.rayCounts);
+        for (const std::string& name : passOrder) {
+            PassSummary& pass = cell.passes.emplace_back(passes[name]);
+            pass.name = name;
+            for (double* sum : {&pass.milliseconds, &pass.rays}) *sum /= cell.seeds;
+            for (auto& [purpose, sum] : pass.purposes) sum /= cell.seeds;
+        }
         for (const auto& [name, values] : cell.values) cell.metrics[name] = withSharedError(estimateMean(values), deviation[name]);
         return cell;
     }
@@ -86,50 +96,9 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
         }
     }
     for (Samples& samples : all) summary.cells.push_back(samples.finish());
+    summary.comparisons = compareCells(study, summary.cells);
+    summary.exponents = exponentsOf(study, summary.cells);
     return summary;
-}
-
-std::string knobText(const std::vector<Setting>& knobs, std::size_t count) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(count, knobs.size()); ++i) {
-        const Json& value = knobs[i].value;
-        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", knobs[i].name.substr(knobs[i].name.find('.') + 1),
-                            value.isString() ? value.asString() : value.dump(-1));
-    }
-    return text;
-}
-
-std::string summaryText(const Study& study, const Summary& summary) {
-    std::string text;
-    std::size_t width = 9;
-    const auto label = [&](const Cell& cell) {
-        const std::string knobs = knobText(cell.knobs, cell.knobs.size());
-        return study.techniques[cell.technique].name + (knobs.empty() ? "" : ", " + knobs);
-    };
-    for (const Cell& cell : summary.cells) width = std::max(width, label(cell).size());
-    for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
-        text += fmt::format("{}\n  {:<{}} {:>5} {:>5} {:>10} {:>10}", study.scenes[scene].name, "technique", width, "frame", "seeds", "ms",
-                            "rays/px");
-        for (const Measure& measure : measuresOf(study)) text += fmt::format(" {:>30}", measure.name() + " +- 95 %");
-        text += "\n";
-        for (const Cell& cell : summary.cells) {
-            if (cell.scene != scene || cell.seeds == 0) continue;
-            text += fmt::format("  {:<{}} {:>5} {:>5} {:>10.4g} {:>10.4g}", label(cell), width, cell.offset, cell.seeds, cell.milliseconds,
-                                cell.rays.mean / study.scenes[scene].pixels());
-            for (const Measure& measure : measuresOf(study)) {
-                const auto found = cell.metrics.find(measure.name());
-                if (found == cell.metrics.end()) {  // of a sequence, and the first of it
-                    text += fmt::format(" {:>30}", "-");
-                    continue;
-                }
-                const Estimate& e = found->second;
-                text += fmt::format(" {:>30}", std::isnan(e.halfWidth) ? fmt::format("{:.4g}", e.mean)
-                                                                       : fmt::format("{:.4g} +- {:.2g}", e.mean, e.halfWidth));
-            }
-            text += "\n";
-        }
-    }
-    return text;
 }
 
 }  // namespace lodestir

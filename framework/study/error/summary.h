@@ -3,35 +3,21 @@
 #pragma once
 #include <framework/study/results.h>
 #include <framework/study/run_list.h>
-#include <framework/study/error/statistics.h>
+#include <framework/study/error/comparison.h>
+#include <framework/study/error/decomposition.h>
+#include <framework/study/error/exponent.h>
 
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace lodestir {
 
-struct PassSummary {
-    std::string name;
-    double milliseconds = 0, rays = 0;  ///< means over seeds
-};
-
-struct Cell {
-    std::size_t scene = 0, technique = 0;
-    std::vector<Setting> knobs;
-    int offset = 0;                                     ///< frames after the event
-    int seeds = 0;                                      ///< measured so far
-    double milliseconds = 0, fastest = 0, slowest = 0;  ///< median and extremes over seeds: a busy machine makes outliers
-    Estimate rays;                                      ///< of the whole frame
-    std::vector<PassSummary> passes;
-    std::map<std::string, Estimate> metrics;
-    std::map<std::string, std::vector<double>> values;  ///< of the metrics, seed by seed
-    std::map<std::string, double> noise;                ///< of the reference
-};
-
 struct Summary {
     std::vector<Cell> cells;  ///< in the study's order; frames of one configuration stand together
+    std::vector<Comparison> comparisons;
+    std::vector<Exponent> exponents;
+    std::vector<Decomposition> decompositions;  ///< where the study keeps images; runErrors() fills them in
     std::set<std::string> devices;
     std::size_t missing = 0;  ///< runs not made yet
     std::size_t foreign = 0;  ///< rows of other versions of the study, its graphs or scenes: left out
@@ -47,7 +33,10 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
 /// "spp 4, mode fast": the knobs without their passes; empty where there are none. `count`: only the first so many.
 std::string knobText(const std::vector<Setting>& knobs, std::size_t count);
 
-/// A table for terminals.
+/// "ours, radius 8"
+std::string labelOf(const Study& study, const Cell& cell);
+
+/// Tables for terminals.
 std::string summaryText(const Study& study, const Summary& summary);
 
 }  // namespace lodestir

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-// report.html: a study's tables and charts in one file that needs nothing else.
+// A study's report: summary.json from here, and what scripts/report draws of it.
 #pragma once
-#include <framework/study/error/summary.h>
+#include <framework/core/files.h>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
 
 namespace lodestir {
 
-/// The charts that a study may ask for.
+/// The charts that a study may ask for. scripts/report/charts.py lists the functions that draw them.
 std::vector<std::string> chartNames();
 
-/// The page.
-std::string reportHtml(const Study& study, const Summary& summary);
+/// Writes summary.json into a folder of results, and has scripts/report draw report.html and figures/ beside it. Results are complete without
+/// pictures: where Python or one of its packages isn't there, a warning says what is missing.
+void writeReport(const Path& out, const nlohmann::ordered_json& summary);
 
 }  // namespace lodestir

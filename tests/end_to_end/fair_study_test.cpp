@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// Studies that are fair: processes that share the work change no value, budgets are met, parts are taken away, and what is planted comes out as large as it is.
+#include "planted_faults.h"
+#include "program.h"
+
+#include <framework/study/error/comparison.h>
+
+#include <map>
+#include <sstream>
+
+namespace lodestir::test {
+namespace {
+
+const std::string pathTracing = (sourceFolder / "graphs/path_tracer.json").string(), restir = (sourceFolder / "graphs/restir_pt.json").string();
+
+const std::string calm = (sourceFolder / "scenes/ensemble_diffuse.json").string();  ///< where a few samples tell much
+
+class FairStudyTest : public ProgramTest {
+protected:
+    FairStudyTest() {
+        json = {{"format", 1},
+                {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
+                {"size", {32, 18}},
+                {"seeds", 4},
+                {"reference", {{"graph", pathTracing}, {"spp", 1024}}},
+                {"techniques", {{"path tracing", samples(4)}}},
+                {"metrics", {"mse", "bias"}},
+                {"charts", {"error_vs_rays"}}};
+    }
+    static OrderedJson samples(int spp) { return {{"graph", pathTracing}, {"variant", "no accumulation"}, {"set", {{"trace.spp", spp}}}}; }
+
+    /// Runs it; its rows, by technique. Fails the test where it fails.
+    std::map<std::string, std::vector<OrderedJson>> study(const std::string& out, Arguments more = {}) {
+        write("study.json", json);
+        more.insert(more.begin(), {"study", (folder / "study.json").string(), "--out", (folder / out).string()});
+        const Output output = lodestir(more);
+        EXPECT_EQ(output.exitCode, 0) << output.err;
+        said = output.err;
+        told = output.out;
+        std::map<std::string, std::vector<OrderedJson>> rows;
+        std::istringstream lines(readText(folder / out / "results.jsonl"));
+        for (std::string line; std::getline(lines, line);) rows[OrderedJson::parse(line)["technique"]].push_back(OrderedJson::parse(line));
+        return rows;
+    }
+    static std::map<std::string, OrderedJson> metricsOf(const std::map<std::string, std::vector<OrderedJson>>& rows) {
+        std::map<std::string, OrderedJson> metrics;
+        for (const auto& [technique, all] : rows)
+            for (const OrderedJson& row : all) metrics[row["run"].get<std::string>() + row["frame"].dump()] = row["metrics"];
+        return metrics;
+    }
+    static double meanMetric(const std::vector<OrderedJson>& rows, const std::string& name) {
+        double sum = 0;
+        for (const OrderedJson& row : rows) sum += row["metrics"][name].get<double>() / double(rows.size());
+        return sum;
+    }
+    static double raysOf(const OrderedJson& row) {
+        double rays = 0;
+        for (const auto& pass : row["passes"])
+            for (const auto& count : pass["rays"]) rays += count.get<double>();
+        return rays / (32 * 18);
+    }
+
+    OrderedJson json;
+    std::string said, told;
+};
+
+TEST_F(FairStudyTest, ProcessesShareTheWorkAndChangeNothing) {
+    json["techniques"]["ReSTIR PT"] = {{"graph", restir}};
+    json["frames"] = {{"warmup", 2}, {"measure", {0, 1}}};
+    const auto one = study("one", {"--jobs", "1"});
+    EXPECT_EQ(said.find("processes"), said.npos) << said;
+    const auto two = study("two", {"--jobs", "2"});
+    EXPECT_NE(said.find("8 of 8 runs to make on"), said.npos) << said;
+    EXPECT_NE(said.find("by 2 processes"), said.npos) << said;
+    EXPECT_EQ(metricsOf(one).size(), 16u);
+    EXPECT_EQ(metricsOf(one), metricsOf(two));
+    EXPECT_EQ(filesOf(folder / "one/references"), filesOf(folder / "two/references"));
+    const std::string once = told;
+    study("two", {"--resume"});
+    EXPECT_EQ(told, once) << "nothing was left to do";
+    json["charts"] = {"error_vs_time"};
+    study("timed");
+    EXPECT_NE(said.find("by one process: times are judged"), said.npos) << said;
+}
+
+TEST_F(FairStudyTest, BudgetsAreMet) {
+    json["techniques"]["solved"] = {{"graph", pathTracing}, {"variant", "no accumulation"}, {"solve", {{"trace.spp", {1, 64}}}}};
+    json["techniques"]["too few"] = {{"graph", pathTracing}, {"variant", "no accumulation"}, {"solve", {{"trace.spp", {1, 2}}}}};
+    json["equal"] = {{"rays", "path tracing"}};
+    const auto rows = study("rays");
+    for (const OrderedJson& row : rows.at("solved")) {
+        EXPECT_EQ(row["knobs"]["trace.spp"], 4);
+        EXPECT_NEAR(raysOf(row), row["budget"]["value"].get<double>(), 0.05 * raysOf(row)) << "but for other seeds";
+        EXPECT_EQ(row["budget"]["inRange"], true);
+    }
+    EXPECT_EQ(rows.at("too few").front()["knobs"]["trace.spp"], 2);
+    EXPECT_EQ(rows.at("too few").front()["budget"]["inRange"], false);
+    EXPECT_NE(said.find("\"too few\" can't cost"), said.npos) << said;
+    EXPECT_NE(told.find("when chosen"), told.npos) << told;
+    const std::string equal = readText(folder / "rays/equal.json");
+    std::filesystem::remove(folder / "rays/results.jsonl");
+    study("rays", {"--resume"});
+    EXPECT_EQ(readText(folder / "rays/equal.json"), equal) << "what was solved stays";
+}
+
+TEST_F(FairStudyTest, PartsAreTakenAway) {
+    json["frames"] = {{"warmup", 4}};
+    json["decompose"] = true;
+    json["masks"] = {{"seen", "hits.depth"}};
+    json["techniques"]["ReSTIR PT"] = {{"graph", restir}, {"ablate", "pairs"}};
+    const auto rows = study("parts");
+    for (const char* part : {"temporal", "spatial", "initial.roulette", "temporal and spatial"}) {
+        ASSERT_TRUE(rows.contains(std::string("ReSTIR PT without ") + part)) << part;
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_EQ(rows.at(std::string("ReSTIR PT without ") + part)[i]["seed"], rows.at("ReSTIR PT")[i]["seed"]) << "seed by seed";
+    }
+    const auto has = [&](const char* technique, const char* pass) { return rows.at(technique).front()["passes"].contains(pass); };
+    EXPECT_TRUE(has("ReSTIR PT", "spatial"));
+    EXPECT_FALSE(has("ReSTIR PT without spatial", "spatial"));
+    EXPECT_TRUE(has("ReSTIR PT without spatial", "temporal"));
+    EXPECT_FALSE(has("ReSTIR PT without temporal and spatial", "temporal"));
+    EXPECT_LT(raysOf(rows.at("ReSTIR PT without temporal and spatial").front()), raysOf(rows.at("ReSTIR PT").front()));
+    EXPECT_GT(meanMetric(rows.at("ReSTIR PT without temporal and spatial"), "mse"), 1.5 * meanMetric(rows.at("ReSTIR PT"), "mse"));
+    EXPECT_TRUE(rows.at("path tracing").front()["metrics"].contains("mse.seen"));
+    const std::size_t table = told.find("without parts of \"ReSTIR PT\", 95 %, seed by seed");
+    ASSERT_NE(table, told.npos) << told;
+    EXPECT_LT(told.find("temporal and spatial", table), told.find("initial.roulette  ", table)) << "what is worth most comes first\n" << told;
+    EXPECT_NE(told.find("squared bias"), told.npos) << told;
+}
+
+// The same twice, each with seeds of its own: if this fails, intervals are too narrow, or seeds are shared.
+TEST_F(FairStudyTest, TheSameTwiceCoincides) {
+    json["scenes"] = {calm};
+    json["seeds"] = 16;
+    json["techniques"] = {{"one", samples(16)}, {"other", samples(16)}};
+    const auto rows = study("null");
+    std::vector<double> errors[2];
+    std::vector<std::uint32_t> seeds[2];
+    for (const int i : {0, 1})
+        for (const OrderedJson& row : rows.at(i == 0 ? "one" : "other")) {
+            errors[i].push_back(row["metrics"]["mse"]);
+            seeds[i].push_back(row["seed"]);
+        }
+    const Difference difference = compareValues(errors[1], seeds[1], errors[0], seeds[0]);
+    EXPECT_FALSE(difference.paired);
+    EXPECT_LE(difference.low(), 1);
+    EXPECT_GE(difference.high(), 1);
+    EXPECT_LT(difference.high() / difference.low(), 2) << "an interval that says nothing";
+}
+
+// If this fails, a bias is told larger or smaller than it is. What accumulates is 8 % too bright.
+TEST_F(FairStudyTest, APlantedBiasIsAsLargeAsItIs) {
+    plant(folder / "faults", {{.type = "bright", .pass = "accumulate", .file = "accumulate.comp", .right = "vec4(colorRgba(p).rgb, 1)", .wrong = "vec4(1.08 * colorRgba(p).rgb, 1)"}});
+    write("bright.json", {{"format", 1},
+                          {"passes", {{"trace", {{"type", "path_tracer"}, {"set", {{"spp", 64}, {"bounces", 4}}}}},
+                                      {"sum", {{"type", "bright"}, {"in", {{"color", "trace"}}}}}}},
+                          {"show", "sum"}});
+    json["scenes"] = {calm};
+    json["seeds"] = 16;
+    json["decompose"] = true;
+    json["reference"]["spp"] = 8192;
+    json["techniques"] = {{"right", samples(64)}, {"bright", {{"graph", (folder / "bright.json").string()}}}};
+    const auto rows = study("bias", {"--passes", (folder / "faults").string()});
+    EXPECT_NEAR(meanMetric(rows.at("bright"), "bias"), 0.08, 0.008);
+    EXPECT_NEAR(meanMetric(rows.at("right"), "bias"), 0, 0.008);
+    EXPECT_NE(told.find("mse: squared bias"), told.npos);
+}
+
+}  // namespace
+}  // namespace lodestir::test

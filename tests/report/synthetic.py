@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: MIT
+"""Folders of results as `lodestir study` writes them, with numbers that tests know."""
+import json
+import math
+import pathlib
+import struct
+import sys
+import zlib
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+sys.dont_write_bytecode = True
+
+T_3 = 3.182446305284263  # of Student's distribution, 97.5 %, 3 degrees of freedom: four seeds
+SEEDS = [11, 12, 13, 14]
+
+
+def estimate(values):
+    values = numpy.asarray(values, float)
+    return {"mean": values.mean(), "halfWidth": T_3 * values.std(ddof=1) / math.sqrt(len(values))}
+
+
+def write_exr(path, image, compression=3, kind=numpy.float16):
+    """Channels B, G, R; by the layout of scan-line files. Compression 0: none, 3: ZIP."""
+    height, width, _ = image.shape
+    text = lambda name: name.encode() + b"\0"  # noqa: E731
+    attribute = lambda name, type_, data: text(name) + text(type_) + struct.pack("<i", len(data)) + data  # noqa: E731
+    channels = b"".join(text(c) + struct.pack("<iBBBBii", 1 if kind == numpy.float16 else 2, 0, 0, 0, 0, 1, 1) for c in "BGR") + b"\0"
+    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = struct.pack("<ii", 20000630, 2) + attribute("channels", "chlist", channels) + attribute("compression", "compression", bytes([compression]))
+    header += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", box) + b"\0"
+    lines, blocks = 16 if compression == 3 else 1, []
+    for first in range(0, height, lines):
+        raw = b"".join(image[y, :, c].astype(kind).tobytes() for y in range(first, min(first + lines, height)) for c in (2, 1, 0))
+        if compression == 3:
+            data = numpy.frombuffer(raw, numpy.uint8)
+            data = numpy.concatenate([data[0::2], data[1::2]]).astype(int)
+            packed = zlib.compress(numpy.concatenate([data[:1], (data[1:] - data[:-1] + 128) % 256]).astype(numpy.uint8).tobytes())
+            raw = packed if len(packed) < len(raw) else raw
+        blocks.append(struct.pack("<ii", first, len(raw)) + raw)
+    at = len(header) + 8 * len(blocks)
+    offsets = b""
+    for block in blocks:
+        offsets += struct.pack("<Q", at)
+        at += len(block)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(header + offsets + b"".join(blocks))
+
+
+def metric(name, **more):
+    return {"name": name, "metric": name.split(".")[0], "unit": "", "fromZero": True, "about": f"what {name} is", "noiseFree": name == "relmse", "temporal": False,
+            "mask": "", "finest": False, **more}
+
+
+def head(kind, scenes, techniques, frames, metrics=(), charts=(), size=(24, 16)):
+    return {"format": 1, "kind": kind, "study": "synthetic", "about": "a < b", "lodestir": "0.1.0", "revision": "abc", "date": "2026-01-02T03:04:05Z", "machine": "a machine",
+            "devices": ["llvmpipe (LLVM 15), packet"], "scenes": [{"name": name, "file": name, "size": list(size), "reference": f"images/{name}.reference.exr"} for name in scenes],
+            "seeds": 4, "paired": True, "warmup": 3, "event": 3, "frames": list(frames), "referenceSamples": 64,
+            "techniques": [{"name": name, "graph": "g.json", "variant": None, "set": {}, "knobs": knobs, "control": False, "planted": False} for name, knobs in techniques],
+            "metrics": list(metrics), "charts": list(charts), "missing": 0, "foreign": 0}
+
+
+CONFIGURATIONS = [("path tracing", {"trace.spp": 1}), ("path tracing", {"trace.spp": 4}), ("reuse", {}), ("slow & poor", {})]
+FRAMES = [-1, 0, 1]
+
+
+def error_value(name, scene, index, frame, seed):
+    """Of one row: distinct, positive."""
+    level = [0.4, 0.1, 0.05, 0.6][index] * (1.5 if scene == "hall" else 1) * (2 if frame == 0 and index == 2 else 1)
+    return level * (1 + 0.05 * ((7 * seed + 3 * frame + index) % 5)) * (0.1 if name == "tflip" else 1)
+
+
+def image_of(scene, index):
+    """Radiance with a ramp, a light above 1, and for a technique an error that is known."""
+    y, x = numpy.mgrid[0:16, 0:24]
+    image = numpy.stack([x / 24, y / 16, numpy.full(x.shape, 0.25)], axis=-1) * (1 if scene == "box" else 0.5)
+    image[3, 5] = 40
+    return image if index is None else image * (1 + 0.5 * (index + 1))
+
+
+def error_study(folder, charts):
+    scenes = ["box", "hall"]
+    metrics = [metric("relmse"), metric("bias", fromZero=False), metric("tflip", temporal=True)]
+    summary = head("error", scenes, [("path tracing", ["trace.spp"]), ("reuse", []), ("slow & poor", [])], FRAMES, metrics, charts)
+    rows, cells, sequences, comparisons = [], [], [], []
+    for scene in scenes:
+        write_exr(folder / f"images/{scene}.reference.exr", image_of(scene, None))
+        values = {(i, m["name"], f): [error_value(m["name"], scene, i, f, s) - (0.3 if m["name"] == "bias" else 0) for s in SEEDS]
+                  for i in range(len(CONFIGURATIONS)) for m in metrics for f in FRAMES if not (m["temporal"] and f == -1)}
+        for i, (technique, knobs) in enumerate(CONFIGURATIONS):
+            for f in FRAMES:
+                names = [m["name"] for m in metrics if (i, m["name"], f) in values]
+                times = [10.0 * (i + 1) + s for s in range(len(SEEDS))]
+                ratio = lambda n, base: {"mean": numpy.mean(values[i, n, f]) / numpy.mean(base), "halfWidth": 0.125}  # noqa: B023,E731
+                found = {n: {**estimate(values[i, n, f]), "values": values[i, n, f], "againstStart": ratio(n, values[i, n, 0 if n == "tflip" else -1])} for n in names}
+                if i > 0:
+                    span = lambda value: {"ratio": bool(value > 0), "paired": True, "middle": value, "low": value - 0.05, "high": value + 0.05}  # noqa: E731
+                    comparisons.append({"scene": scene, "technique": technique, "knobs": knobs, "frame": f, "baseline": {"technique": "path tracing", "knobs": {"trace.spp": 1}},
+                                        "without": ["spatial", "temporal.cap"] if i == 3 else None, "ms": span(i + 1.0), "rays": span(i + 1.0),
+                                        "metrics": {n: span(ratio(n, values[0, n, f])["mean"]) for n in names}})
+                cell = {"scene": scene, "technique": technique, "knobs": knobs, "frame": f, "seeds": SEEDS, "runs": [f"{scene} {i} {s}" for s in SEEDS],
+                        "ms": {"median": float(numpy.median(times)), "fastest": times[0], "slowest": times[-1]}, "rays": {"mean": 24 * 16 * 3.0 * (i + 1), "halfWidth": 0.0},
+                        "passes": {"trace": {"ms": 8.0 * (i + 1), "rays": {"primary": 384.0 * (i + 1), "nee": 768.0 * (i + 1)}}, "display": {"ms": 1.5, "rays": {"primary": 0.0}}},
+                        "metrics": found, "referenceNoise": {"relmse": 0.001}, "exposure": 2.0}
+                if technique == "reuse":
+                    cell["budget"] = {"given": 30.0, "reached": 31.0, "inRange": scene == "box"}
+                if f == FRAMES[-1]:
+                    cell["image"] = f"images/{scene}.{i}.exr"
+                    write_exr(folder / cell["image"], image_of(scene, i))
+                cells.append(cell)
+                for k, s in enumerate(SEEDS):
+                    rows.append({"scene": scene, "technique": technique, "knobs": knobs, "seed": s, "frame": f, "ms": times[k],
+                                 "passes": {"trace": {"ms": 8.0, "rays": {"primary": 384, "nee": 768}}}, "metrics": {n: values[i, n, f][k] for n in names}, "run": f"{scene} {i} {s}"})
+            steps = {m["name"]: [f for f in FRAMES if (i, m["name"], f) in values] for m in metrics}
+            sequences.append({"scene": scene, "technique": technique, "knobs": knobs,
+                              "metrics": {n: estimate(numpy.mean([values[i, n, f] for f in frames], axis=0)) for n, frames in steps.items()}})
+    rows.append({**rows[0], "run": "of another version", "metrics": {"relmse": 1e6}})
+    here = {"scene": "box", "technique": "path tracing", "knobs": {"trace.spp": 1}, "frame": 0, "metric": "relmse"}
+    summary.update(cells=cells, sequences=sequences, comparisons=comparisons, baseline="path tracing", equal="ms",
+                   exponents=[{**here, "over": "trace.spp", "exponent": {"mean": -0.98, "halfWidth": 0.03}}],
+                   decompositions=[{**here, "squaredBias": {"mean": -0.001, "halfWidth": 0.004}, "variance": {"mean": 0.4, "halfWidth": 0.05}},
+                                   {**here, "technique": "reuse", "knobs": {}, "squaredBias": {"mean": 0.03, "halfWidth": 0.004}, "variance": {"mean": 0.07, "halfWidth": 0.01}}])
+    write(folder, summary, rows)
+    return rows
+
+
+def ensemble_study(folder):
+    summary = head("ensemble", ["box"], [("same", []), ("wrong", [])], [0])
+    summary.update(halfWidth=0.01, blockSize=16, batches=64, seeds=64)
+    summary["techniques"][0]["control"] = summary["techniques"][1]["planted"] = True
+    cells = []
+    for i, (technique, difference, verdict) in enumerate([("same", 0.001, "unbiased"), ("wrong", 0.04, "biased")]):
+        channel = {"mean": 0.5 * (1 + difference), "reference": 0.5, "difference": difference, "halfWidth": 0.004, "sigmas": 250 * difference}
+        cells.append({"scene": "box", "technique": technique, "knobs": {}, "frame": 0, "complete": True, "chunks": [f"chunk {i}"], "ms": 2.5, "rays": 384.0, "halvesSigmas": 0.4,
+                      "verdict": verdict, "reason": f"because of {technique}", "runs": 64, "batches": 64, "energy": {name: channel for name in ("luminance", "red", "green", "blue")},
+                      "energyP": 0.5 if i == 0 else 1e-9, "blockP": 0.25 if i == 0 else 1e-7, "blockColumns": 2, "blockSigmas": [0.5 + 6 * i, -1.25],
+                      "faults": [{"size": size, "block": block, "caught": 1 if size > 0.02 else 0.41, "needed": size > 0.02} for block in (False, True) for size in (0.01, 0.03)],
+                      "falseAlarms": 0.002, "image": f"images/box.{technique}.0.exr",
+                      "convergence": {"noise": 0.2, "bias": 0.002 * i, "biasDeviation": None, "difference": 0.03, "differenceOfNoise": 0.028,
+                                      "points": [{"runs": n, "relmse": 0.2 / n + 0.002 * i} for n in (1, 32, 64)]}})
+        write_exr(folder / cells[-1]["image"], image_of("box", i), compression=0, kind=numpy.float32)
+    write_exr(folder / "images/box.reference.exr", image_of("box", None))
+    summary["cells"] = cells
+    write(folder, summary, [])
+
+
+def write(folder, summary, rows):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "summary.json").write_text(json.dumps(summary))
+    (folder / "results.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows) + '{"cut')
