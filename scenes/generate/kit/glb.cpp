@@ -241,9 +241,12 @@ void Glb::addLevels(int node, const std::vector<Level>& levels) {
     json ids = json::array(), errors = json::array({0});
     for (const Level& level : levels) {
         const std::string name = tables->nodes.at(size_t(node)).at("name").get<std::string>() + "_level_" + std::to_string(errors.size());
-        ids.push_back(addNode(name, level.mesh));
+        json coarser = tables->nodes[size_t(node)];  // it stands where the node stands
+        coarser["name"] = name, coarser["mesh"] = level.mesh;
+        ids.push_back(tables->nodes.size());
         errors.push_back(tidy(level.error));
-        tables->levels.insert(ids.back().get<int>());
+        tables->levels.insert(int(tables->nodes.size()));
+        tables->nodes.push_back(coarser);
     }
     tables->nodes[size_t(node)]["extensions"]["MSFT_lod"]["ids"] = ids;
     tables->nodes[size_t(node)]["extras"]["lod_error"] = errors;

@@ -97,8 +97,9 @@ void addGarden(Glb& glb) {
         m.name = name, m.color = color, m.ior = 1;
         return glb.addMaterial(m);
     };
-    const CottagePaints paints{paint(paper, "rose", {0.86f, 0.58f, 0.46f}), paint(tiles, "slate", {0.30f, 0.32f, 0.40f}), paint(paper, "trim", {0.88f, 0.85f, 0.78f}),
-                               paint(paper, "cobalt", {0.10f, 0.22f, 0.52f}), paint(paper, "pane", {0.075f, 0.11f, 0.17f}), paint(paper, "brick", {0.52f, 0.26f, 0.17f})};
+    const CottagePaints paints{paint(paper, "rose", {0.86f, 0.58f, 0.46f}),  paint(tiles, "slate", {0.30f, 0.32f, 0.40f}),
+                               paint(paper, "trim", {0.88f, 0.85f, 0.78f}),  paint(paper, "cobalt", {0.10f, 0.22f, 0.52f}),
+                               paint(paper, "pane", {0.075f, 0.11f, 0.17f}), paint(paper, "brick", {0.52f, 0.26f, 0.17f})};
     glb.addNode(cottage("house", paints, {6.4f, 2.9f, 4.6f}), {.translation = {-1.6f, 0, -11}, .rotation = turnY(24)});
 
     Model lawn{"lawn", {}};
@@ -122,13 +123,21 @@ void addGarden(Glb& glb) {
         return glb.addMaterial(leaf);
     }();
     const auto add = [&](const std::string& name, const Mesh& mesh) { return glb.addMesh(name, {{glb.addGeometry(mesh), dabs}}); };
-    const int cherry = add("cherry", tree(4, {.height = 4.4f, .spread = 2.0f, .waist = 0.5f, .bare = 0.32f, .dabs = 1800, .dab = 0.16f,
-                                              .shade = {0.42f, 0.16f, 0.20f}, .light = {0.86f, 0.56f, 0.58f}, .accent = {0.90f, 0.80f, 0.76f}})),
+    const int cherry = add("cherry", tree(4, {.height = 4.4f,
+                                              .spread = 2.0f,
+                                              .waist = 0.5f,
+                                              .bare = 0.32f,
+                                              .dabs = 1800,
+                                              .dab = 0.16f,
+                                              .shade = {0.42f, 0.16f, 0.20f},
+                                              .light = {0.86f, 0.56f, 0.58f},
+                                              .accent = {0.90f, 0.80f, 0.76f}})),
               linden = add("linden", tree(1, {}));
     glb.addNode("cherry", cherry, {.translation = {3.0f, 0, -7.6f}});
     const glm::vec3 lindens[] = {{-8.5f, 0, -14}, {6.5f, 0, -14.5f}, {9.5f, 0, -11}, {-12, 0, -19}, {2.2f, 0, -21}, {13, 0, -22}, {-4.8f, 0, -24}};
     for (int i = 0; i < int(std::size(lindens)); ++i)
-        glb.addNode("linden_" + std::to_string(i), linden, {.translation = lindens[i], .rotation = turnY(70.0f * float(i)), .scale = glm::vec3(1 + 0.1f * float(i % 3))});
+        glb.addNode("linden_" + std::to_string(i), linden,
+                    {.translation = lindens[i], .rotation = turnY(70.0f * float(i)), .scale = glm::vec3(1 + 0.1f * float(i % 3))});
     const int patches[] = {add("poppies", flowerPatch(11, 34, 0.7f, {0.78f, 0.085f, 0.045f}, {0.85f, 0.78f, 0.62f})),
                            add("cornflowers", flowerPatch(12, 34, 0.7f, {0.13f, 0.20f, 0.66f}, {0.62f, 0.42f, 0.72f})),
                            add("buttercups", flowerPatch(13, 38, 0.7f, {0.86f, 0.62f, 0.06f}, {0.88f, 0.84f, 0.74f}))};
