@@ -52,6 +52,7 @@ public:
             checkSteps(fields.find("metrics"));
             study_.charts = readNames(fields.find("charts"), "chart", chartNames(), chartNames());
             readMask(fields);
+            if (const Json* outcomes = fields.find("outcomes")) study_.outcomes = readOutcomes(*outcomes, study_, problems_);
         }
         fields.finish();
         problems_.raise();
@@ -250,8 +251,9 @@ private:
 
     void readMask(Fields& fields) {
         std::size_t mask = 0;
-        fields.choice("mask", mask, {"none", "switched"});
-        study_.maskSwitched = mask == 1;
+        fields.choice("mask", mask, {"none", "switched", "switched_if_any"});
+        study_.maskSwitched = mask >= 1;
+        study_.maskOptional = mask == 2;
     }
 
     void readReference(const Json& value) {

@@ -4,6 +4,7 @@
 #include <framework/core/files.h>
 #include <framework/core/json.h>
 #include <framework/graph/description.h>
+#include <framework/study/error/outcomes.h>
 
 #include <glm/glm.hpp>
 
@@ -78,7 +79,9 @@ struct Study {
     std::vector<Technique> techniques;
     std::vector<std::string> metrics, charts;  ///< none in an ensemble
     bool maskSwitched = false;                 ///< errors where objects switch levels are measured beside those of the whole frame
+    bool maskOptional = false;                 ///< scenes in which nothing switches have none of them, rather than being refused
     bool referenceFinest = false;              ///< errors against the finest levels are measured beside those against the levels shown
+    std::optional<OutcomeRules> outcomes;      ///< which techniques hold in which of the scenes
     double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
 
     bool isMeasured(int offset) const { return std::ranges::find(measure, offset) != measure.end(); }

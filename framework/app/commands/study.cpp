@@ -35,7 +35,7 @@ struct SceneReferences {
     double exposure = 1;
     FlipExposures flipExposures;
     std::vector<Halves> frames, finest;    ///< parallel to Study::measure; the second where the study asks for it
-    std::vector<std::vector<bool>> masks;  ///< likewise
+    std::vector<std::vector<bool>> masks;  ///< likewise; none where nothing switches
     std::vector<ImageData> motions;        ///< likewise
 };
 
@@ -91,7 +91,10 @@ std::vector<ResultRow> measure(Stage& stage, const Study& study, const StudyRun&
             const std::vector<Halves>& halves = measure.finest ? references.finest : references.frames;
             const Halves& reference = halves[i];
             MetricOptions how{.exposure = references.exposure, .flip = {.exposures = references.flipExposures}};
-            if (measure.switched) how.mask = references.masks[i];
+            if (measure.switched) {
+                if (references.masks.empty()) continue;
+                how.mask = references.masks[i];
+            }
             if (isTemporal(measure.metric)) {
                 if (i == 0 || study.measure[i - 1] + 1 != study.measure[i]) continue;  // nothing to compare the frame with
                 row.metrics[measure.name()] = evaluateStep(
@@ -168,7 +171,7 @@ int runStudy(const StudyOptions& options) {
     }
     const Summary summary = summarize(study, runs, names, readResults(out));
     writeFile(out / "report.html", reportHtml(study, summary));
-    std::printf("%s", summaryText(study, summary).c_str());
+    std::printf("%s%s", summaryText(study, summary).c_str(), outcomesText(study, summary.outcomes).c_str());
     noteRest(summary.foreign, summary.missing, "runs", out);
     endInterrupted(interrupt);
     return 0;

@@ -86,7 +86,13 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
         }
     }
     for (Samples& samples : all) summary.cells.push_back(samples.finish());
+    summary.outcomes = judgeOutcomes(study, summary.cells);
     return summary;
+}
+
+std::string labelOf(const Study& study, const Cell& cell) {
+    const std::string knobs = knobText(cell.knobs, cell.knobs.size());
+    return study.techniques[cell.technique].name + (knobs.empty() ? "" : ", " + knobs);
 }
 
 std::string knobText(const std::vector<Setting>& knobs, std::size_t count) {
@@ -102,11 +108,7 @@ std::string knobText(const std::vector<Setting>& knobs, std::size_t count) {
 std::string summaryText(const Study& study, const Summary& summary) {
     std::string text;
     std::size_t width = 9;
-    const auto label = [&](const Cell& cell) {
-        const std::string knobs = knobText(cell.knobs, cell.knobs.size());
-        return study.techniques[cell.technique].name + (knobs.empty() ? "" : ", " + knobs);
-    };
-    for (const Cell& cell : summary.cells) width = std::max(width, label(cell).size());
+    for (const Cell& cell : summary.cells) width = std::max(width, labelOf(study, cell).size());
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
         text += fmt::format("{}\n  {:<{}} {:>5} {:>5} {:>10} {:>10}", study.scenes[scene].name, "technique", width, "frame", "seeds", "ms",
                             "rays/px");
@@ -114,7 +116,7 @@ std::string summaryText(const Study& study, const Summary& summary) {
         text += "\n";
         for (const Cell& cell : summary.cells) {
             if (cell.scene != scene || cell.seeds == 0) continue;
-            text += fmt::format("  {:<{}} {:>5} {:>5} {:>10.4g} {:>10.4g}", label(cell), width, cell.offset, cell.seeds, cell.milliseconds,
+            text += fmt::format("  {:<{}} {:>5} {:>5} {:>10.4g} {:>10.4g}", labelOf(study, cell), width, cell.offset, cell.seeds, cell.milliseconds,
                                 cell.rays.mean / study.scenes[scene].pixels());
             for (const Measure& measure : measuresOf(study)) {
                 const auto found = cell.metrics.find(measure.name());

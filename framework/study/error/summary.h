@@ -32,6 +32,7 @@ struct Cell {
 
 struct Summary {
     std::vector<Cell> cells;  ///< in the study's order; frames of one configuration stand together
+    OutcomeMatrix outcomes;   ///< empty where the study has no rules
     std::set<std::string> devices;
     std::size_t missing = 0;  ///< runs not made yet
     std::size_t foreign = 0;  ///< rows of other versions of the study, its graphs or scenes: left out
@@ -43,6 +44,9 @@ std::set<std::string> finishedRuns(const Study& study, const std::vector<ResultR
 /// `names[i]` is the hash of `runs[i]`.
 Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const std::vector<std::string>& names,
                   const std::vector<ResultRow>& rows);
+
+/// The technique of a cell, with the values of its knobs.
+std::string labelOf(const Study& study, const Cell& cell);
 
 /// "spp 4, mode fast": the knobs without their passes; empty where there are none. `count`: only the first so many.
 std::string knobText(const std::vector<Setting>& knobs, std::size_t count);
