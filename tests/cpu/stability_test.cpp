@@ -69,6 +69,11 @@ TEST(Stability, PoppingIsWhatTheSwitchAddsToNoise) {
 
 TEST(Stability, EnergyAndBaselineLookFromTheEventOn) {
     EXPECT_DOUBLE_EQ(energyError(steady({-1, 0, 1}, {0.5, -0.04, -0.02})).value, -0.03);
+    // Two frames whose references are off by 3 % and 4 % make a mean that is off by 2.5 %, as good as known: Student's t of many degrees of freedom.
+    Course shared = steady({-1, 0, 1}, {0.5, -0.04, -0.02});
+    shared.deviations = {9, 0.03, 0.04};
+    EXPECT_DOUBLE_EQ(energyError(shared).value, -0.03);
+    EXPECT_NEAR(energyError(shared).high - energyError(shared).value, 1.96 * 0.025, 2e-4);
     const Course errors{.offsets = {-1, 0, 1}, .values = {{9, 9}, {2, 4}, {4, 6}}}, baseline{.offsets = {-1, 0, 1}, .values = {{1, 1}, {1, 2}, {1, 2}}};
     const StabilityNumber ratio = errorAgainst(errors, baseline);
     EXPECT_NEAR(ratio.value, 4 / 1.5, 1e-12);

@@ -164,6 +164,8 @@ OutcomeMatrix judgeOutcomes(const Study& study, const std::vector<Cell>& cells) 
             if (cell.scene != rule.scene || found == cell.values.end()) continue;
             ofCase[column].offsets.push_back(cell.offset);
             ofCase[column].values.push_back(found->second);
+            const auto deviation = cell.deviation.find(rule.measure);
+            ofCase[column].deviations.push_back(deviation == cell.deviation.end() ? 0 : deviation->second);
         }
     }
     for (std::size_t i = 0; i < courses.size(); ++i) {

@@ -68,7 +68,15 @@ StabilityNumber poppingIndex(const Course& stepFlip) {
     return intervalOf(estimateMean(differences));
 }
 
-StabilityNumber energyError(const Course& bias) { return intervalOf(estimateMean(meansOf(bias, false))); }
+StabilityNumber energyError(const Course& bias) {
+    double squares = 0, frames = 0;
+    for (std::size_t i = 0; i < bias.offsets.size(); ++i) {
+        if (bias.offsets[i] < 0) continue;
+        if (!bias.deviations.empty()) squares += bias.deviations[i] * bias.deviations[i];
+        ++frames;
+    }
+    return intervalOf(withSharedError(estimateMean(meansOf(bias, false)), std::sqrt(squares) / frames));
+}
 
 StabilityNumber errorAgainst(const Course& errors, const Course& baseline) {
     const Estimate a = estimateMean(meansOf(errors, false)), b = estimateMean(meansOf(baseline, false));

@@ -12,6 +12,7 @@ namespace lodestir {
 struct Course {
     std::vector<int> offsets;                 ///< frames after the event; negative: before it
     std::vector<std::vector<double>> values;  ///< parallel to `offsets`
+    std::vector<double> deviations;           ///< likewise: standard deviation that the reference's noise gives all runs alike; empty: none
 
     std::size_t runs() const { return values.empty() ? 0 : values.front().size(); }
     /// Without one of its runs.
@@ -36,7 +37,8 @@ StabilityNumber recoveryTime(const Course& errors, double factor = 1.1);
 /// does without a switch; a FLIP, 0 to 1.
 StabilityNumber poppingIndex(const Course& stepFlip);
 
-/// How much light is lost (below 0) or made up (above) from the event on: the mean bias over the measured frames from the event on, a share of the energy.
+/// How much light is lost (below 0) or made up (above) from the event on: the mean bias over the measured frames from the event on, a share of the energy. Its interval
+/// holds the reference's noise, which frames have each their own.
 StabilityNumber energyError(const Course& bias);
 
 /// How much worse a technique is than a baseline: its mean error over the measured frames from the event on over the baseline's, whose runs are independent; a

@@ -14,7 +14,6 @@ struct Samples {
     std::vector<double> milliseconds, rays;
     std::map<std::string, std::pair<double, double>> passes;  ///< sums of milliseconds and rays
     std::vector<std::string> passOrder;
-    std::map<std::string, double> deviation;
 
     void add(const ResultRow& row) {
         milliseconds.push_back(row.milliseconds);
@@ -27,7 +26,7 @@ struct Samples {
         }
         for (const auto& [name, value] : row.metrics) cell.values[name].push_back(value);
         cell.noise = row.noise;
-        deviation = row.deviation;
+        cell.deviation = row.deviation;
     }
 
     Cell finish() {
@@ -39,7 +38,7 @@ struct Samples {
         cell.rays = estimateMean(rays);
         for (const std::string& name : passOrder)
             cell.passes.push_back({name, passes[name].first / cell.seeds, passes[name].second / cell.seeds});
-        for (const auto& [name, values] : cell.values) cell.metrics[name] = withSharedError(estimateMean(values), deviation[name]);
+        for (const auto& [name, values] : cell.values) cell.metrics[name] = withSharedError(estimateMean(values), cell.deviation.contains(name) ? cell.deviation.at(name) : 0);
         return cell;
     }
 };

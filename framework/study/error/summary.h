@@ -28,6 +28,7 @@ struct Cell {
     std::map<std::string, Estimate> metrics;
     std::map<std::string, std::vector<double>> values;  ///< of the metrics, seed by seed
     std::map<std::string, double> noise;                ///< of the reference
+    std::map<std::string, double> deviation;            ///< standard deviation that the reference gives all seeds' metrics alike
 };
 
 struct Summary {
