@@ -114,7 +114,8 @@ protected:
     Study load(const std::string& outcomes, const std::string& measure = "[-2, -1, 0, 1]") {
         writeFile(folder / "study.json", R"({ "format": 1, "scenes": ["box.json", "hall.json"], "seeds": 3, "frames": { "warmup": 4, "measure": )" + measure +
                                              R"( }, "reference": { "graph": "graph.json", "spp": 64 },
-            "techniques": { "plain": { "graph": "graph.json" }, "other": { "graph": "graph.json" }, "many": { "graph": "graph.json", "vary": { "a.spp": [1, 2] } } },
+            "techniques": { "plain": { "graph": "graph.json" }, "other": { "graph": "graph.json" },
+                            "many": { "graph": "graph.json", "vary": { "a.spp": [1, 2] } } },
             "metrics": ["relmse", "bias", "step_flip"], "outcomes": )" +
                                              outcomes + " }");
         return loadStudy(folder / "study.json");

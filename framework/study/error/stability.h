@@ -33,12 +33,12 @@ StabilityNumber spikeHeight(const Course& errors);
 /// the frames measured. The interval spans what it is without any one of the runs. (1.1: studies/lod_restir, after Fig. 7 of the LoD paper.)
 StabilityNumber recoveryTime(const Course& errors, double factor = 1.1);
 
-/// How visible the switch itself is, with a camera that stands: the step_flip of the frame of the event less its mean over the steps before, which is what noise
-/// does without a switch; a FLIP, 0 to 1.
+/// How visible the switch itself is, with a camera that stands: the step_flip of the frame of the event less its mean over the steps before, which is
+/// what noise does without a switch; a FLIP, -1 to 1.
 StabilityNumber poppingIndex(const Course& stepFlip);
 
-/// How much light is lost (below 0) or made up (above) from the event on: the mean bias over the measured frames from the event on, a share of the energy. Its interval
-/// holds the reference's noise, which frames have each their own.
+/// How much light is lost (below 0) or made up (above): the mean bias over the measured frames from the event on, a share of the energy. Its interval holds
+/// the reference's noise, of which each frame has its own.
 StabilityNumber energyError(const Course& bias);
 
 /// How much worse a technique is than a baseline: its mean error over the measured frames from the event on over the baseline's, whose runs are independent; a

@@ -38,7 +38,10 @@ struct Samples {
         cell.rays = estimateMean(rays);
         for (const std::string& name : passOrder)
             cell.passes.push_back({name, passes[name].first / cell.seeds, passes[name].second / cell.seeds});
-        for (const auto& [name, values] : cell.values) cell.metrics[name] = withSharedError(estimateMean(values), cell.deviation.contains(name) ? cell.deviation.at(name) : 0);
+        for (const auto& [name, values] : cell.values) {
+            const auto shared = cell.deviation.find(name);
+            cell.metrics[name] = withSharedError(estimateMean(values), shared == cell.deviation.end() ? 0 : shared->second);
+        }
         return cell;
     }
 };
