@@ -64,19 +64,32 @@ double correlated(const Step& step, const MetricOptions& options) {
     return meanOfErrors(step, options, [](double now, double before) { return now * before; });
 }
 
-double temporalFlip(const Step& step, const MetricOptions& options) {
+/// FLIP between a frame and the one before it, of each pixel.
+std::vector<double> flipOfStep(const ImageData& now, const ImageData& before, const Step& step, const MetricOptions& options) {
     FlipOptions flip = options.flip;
     if (!flip.exposures && !options.displayed) flip.exposures = flipExposures(step.reference);
-    const auto compared = options.displayed ? flipLdr : flipHdr;
-    const std::vector<double> x = compared(step.test, step.testBefore, flip), r = compared(step.reference, step.referenceBefore, flip);
+    return (options.displayed ? flipLdr : flipHdr)(now, before, flip);
+}
+
+/// Of the pixels that count.
+double meanOf(const std::vector<double>& values, const MetricOptions& options) {
     double sum = 0, count = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
         if (!options.mask.empty() && !options.mask[i]) continue;
-        sum += std::abs(x[i] - r[i]);
+        sum += values[i];
         ++count;
     }
     return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
+
+double temporalFlip(const Step& step, const MetricOptions& options) {
+    std::vector<double> x = flipOfStep(step.test, step.testBefore, step, options);
+    const std::vector<double> r = flipOfStep(step.reference, step.referenceBefore, step, options);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::abs(x[i] - r[i]);
+    return meanOf(x, options);
+}
+
+double stepFlip(const Step& step, const MetricOptions& options) { return meanOf(flipOfStep(step.test, step.testBefore, step, options), options); }
 
 constexpr Temporal table[] = {
     {"flicker_uncorrelated",
@@ -91,6 +104,10 @@ constexpr Temporal table[] = {
      "mean of |FLIP(x_t, x_(t-1)) - FLIP(r_t, r_(t-1))|, 0 to 1: changes from frame to frame that a viewer sees and the reference hasn't, "
      "or that lack; FLIP as for flip, pixels compared in place",
      temporalFlip},
+    {"step_flip",
+     "mean of FLIP(x_t, x_(t-1)), 0 to 1: how much of a change a viewer sees from one frame to the next, wanted or not; where the camera stands, a switch of "
+     "level adds its popping to what noise does; FLIP as for flip, of which the reference gives the exposures alone",
+     stepFlip},
 };
 
 const Temporal& metricNamed(std::string_view name) {

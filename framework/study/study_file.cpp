@@ -55,6 +55,7 @@ public:
             readMasks(fields);
             readBaseline(fields);
             attempt([&] { study_.decompose = readFlag(fields.find("decompose"), "\"decompose\""); });
+            if (const Json* outcomes = fields.find("outcomes")) study_.outcomes = readOutcomes(*outcomes, study_, problems_);
         }
         fields.finish();
         problems_.raise();
@@ -255,8 +256,8 @@ private:
     /// "switched", and those that ports of graphs say.
     void readMasks(Fields& fields) {
         std::size_t mask = 0;
-        fields.choice("mask", mask, {"none", "switched"});
-        if (mask == 1) study_.masks.push_back({.name = "switched", .graph = {}});
+        fields.choice("mask", mask, {"none", "switched", "switched_if_any"});
+        if (mask >= 1) study_.masks.push_back({.name = "switched", .graph = {}, .optional = mask == 2});
         attempt([&] {
             const Json* masks = fields.find("masks");
             if (!masks) return;

@@ -4,6 +4,7 @@
 #include <framework/core/files.h>
 #include <framework/core/json.h>
 #include <framework/graph/description.h>
+#include <framework/study/error/outcomes.h>
 
 #include <glm/glm.hpp>
 
@@ -75,6 +76,7 @@ struct StudyScene {
 struct Mask {
     std::string name;
     std::optional<StudyGraph> graph;  ///< whose port says which, by values other than 0; none: where objects are seen that take another level from the event on
+    bool optional = false;            ///< scenes in which nothing switches have no such mask, rather than being refused
 };
 
 /// One number that a measured frame is judged by.
@@ -118,6 +120,7 @@ struct Study {
     std::optional<Budget> equal;               ///< that techniques with a knob to solve for are given
     bool decompose = false;                    ///< images of all runs are kept, and bias and variance told apart
     bool referenceFinest = false;              ///< errors against the finest levels are measured beside those against the levels shown
+    std::optional<OutcomeRules> outcomes;      ///< which techniques hold in which of the scenes
     double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
 
     /// Does it conclude anything from how long frames take?

@@ -313,6 +313,40 @@ def stability_matrix(r, metric):
     return d
 
 
+JUDGED = {"holds": ("holds", "#cfe3f2"), "strained": ("is strained", "#f4cfa4"), "fails": ("fails", "#e08a5b")}
+
+
+def outcomes(r):
+    """Failure case by technique, by the study's own limits: which hold, are strained, or fail."""
+    matrix = r.summary.get("outcomes")
+    if not matrix or not any(cell for case in matrix["cases"] for cell in case["cells"]):
+        return None
+    columns, cases = matrix["columns"], matrix["cases"]
+    d = Drawing("outcomes", "Which techniques hold", height=0.75 + 0.3 * len(cases))
+    axes = d.axes
+    for row, case in enumerate(cases):
+        for column, cell in enumerate(case["cells"]):
+            if not cell:
+                continue
+            word, color = JUDGED[cell["outcome"]]
+            (box,) = axes.bar(column, 1, width=1, bottom=row - 0.5, color=color, edgecolor="white", linewidth=1)
+            doubt = "" if cell["certain"] else "; its 95 % interval reaches another outcome"
+            d.hint(box, f"{columns[column]}, {case['name']} ({case['scene']}): {case['quantity']} of {case['measure']} {cell['text']}; {word}{doubt}")
+            axes.text(column, row, cell["text"].split(" ")[0] + (" %" if "%" in cell["text"] else "") + ("" if cell["certain"] else "?"), ha="center", va="center",
+                      fontsize=6.5, color=INK)
+    axes.set_xticks(range(len(columns)), columns, rotation=0 if len(columns) <= 3 else 35, ha="center" if len(columns) <= 3 else "left")
+    axes.xaxis.tick_top()
+    axes.set_yticks(range(len(cases)), [f"{case['name']}\n{case['quantity']}, {case['limits'][0]:g} / {case['limits'][1]:g}" for case in cases], fontsize=6)
+    axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(len(cases) - 0.5, -0.5))
+    axes.grid(False)
+    axes.tick_params(length=0)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_visible(False)
+    d.legend([Patch(facecolor=color) for _, color in JUDGED.values()], [word for word, _ in JUDGED.values()])
+    d.note = "A number up to the first limit of its case holds, up to the second is strained, above fails. ?: the 95 % interval reaches another outcome."
+    return d
+
+
 def cost_vs_pixels(r, file, time):
     """What a frame takes at the sizes of its image; `file`: the scene's, which has several."""
     scenes = [s for s, scene in enumerate(r.summary["scenes"]) if scene["file"] == file]

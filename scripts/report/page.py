@@ -76,6 +76,9 @@ def over_scenes(r, figures):
     if r.kind != "error":
         return []
     sections = []
+    drawn = figures.draw(error_charts.outcomes, r) if "outcomes" in chart_names(r) else []
+    if drawn:
+        sections.append(SimpleNamespace(id="outcomes", name="Where methods fail", drawings=drawn, tables=[], empty=""))
     drawn = [drawing for metric in r.metrics for drawing in figures.draw(error_charts.stability_matrix, r, metric)] if "stability_matrix" in chart_names(r) else []
     if drawn:
         sections.append(SimpleNamespace(id="stability-by-case", name="Stability by case", drawings=drawn, tables=[], empty=""))

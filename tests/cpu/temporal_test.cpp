@@ -124,6 +124,23 @@ TEST(Temporal, ErrorsThatMoveWithTheContentAreCorrelatedAlongTheMotion) {
         << "a picture that hangs lacks changes";
 }
 
+// If this fails, what a viewer sees of a switch is mixed up with how wrong the picture is.
+TEST(Temporal, StepFlipIsTheChangeAViewerSeesWhateverTheReference) {
+    const ImageData still = image(40, 30, pattern), other = image(40, 30, [](int x, int y) { return pattern(x, y) + 0.3; });
+    EXPECT_EQ(evaluateStep("step_flip", {other, other, still, still}, asIs), 0) << "wrong but steady";
+    const double seen = evaluate("flip", other, still, asIs);
+    EXPECT_GT(seen, 0.02);
+    EXPECT_DOUBLE_EQ(evaluateStep("step_flip", {other, still, still, still}, asIs), seen);
+    EXPECT_DOUBLE_EQ(evaluateStep("step_flip", {other, still, other, still}, asIs), seen) << "a change that the reference has is seen as well";
+    EXPECT_NEAR(evaluateStep("tflip", {other, still, other, still}, asIs), 0, 1e-12) << "other than by tflip";
+    // A mask counts where the change is, and nothing where it isn't.
+    const ImageData half = image(40, 30, [](int x, int y) { return pattern(x, y) + (x < 20 ? 0.3 : 0); });
+    MetricOptions left = asIs, right = asIs;
+    for (int i = 0; i < 40 * 30; ++i) left.mask.push_back(i % 40 < 10), right.mask.push_back(i % 40 >= 35);
+    EXPECT_GT(evaluateStep("step_flip", {half, still, still, still}, left), 0.02);
+    EXPECT_NEAR(evaluateStep("step_flip", {half, still, still, still}, right), 0, 1e-3);
+}
+
 TEST(Temporal, OnlyTheMaskAndWhatWasInTheFrameCount) {
     const ImageData reference = makeImage(3, 1, 1);
     const ImageData now{3, 1, 1, {light(1), light(2), light(4)}}, before{3, 1, 1, {light(1), light(1), light(0)}};

@@ -57,7 +57,7 @@ int runEnsembleStudy(Stage& stage, const Study& study, StudyPlace& place, const 
 int runErrorStudy(Stage& stage, const Study& study, StudyPlace& place, const InterruptWatch& interrupt) {
     const Summary summary = runErrors(stage, study, place);
     writeReport(place.out, summaryJson(study, summary));
-    std::printf("%s", summaryText(study, summary).c_str());
+    std::printf("%s%s", summaryText(study, summary).c_str(), outcomesText(study, summary.outcomes).c_str());
     noteRest(summary.foreign, summary.missing, "runs", place.out);
     endEarly(place, interrupt);
     return 0;

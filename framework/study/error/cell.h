@@ -27,7 +27,8 @@ struct Cell {
     Estimate rays;                                      ///< of the whole frame
     std::vector<PassSummary> passes;
     std::map<std::string, Estimate> metrics;
-    std::map<std::string, double> noise;  ///< of the reference
+    std::map<std::string, double> noise;      ///< of the reference
+    std::map<std::string, double> deviation;  ///< standard deviation that the reference gives all seeds' metrics alike
     double exposure = 1;                  ///< that the metrics were measured at
     std::optional<BudgetMet> budget;
 

@@ -42,7 +42,11 @@ std::vector<ResultRow> measureRun(Stage& stage, const Study& study, const StudyR
             const std::vector<Halves>& halves = measure.finest ? references.finest : references.frames;
             const Halves& reference = halves[i];
             MetricOptions how{.exposure = references.exposure, .flip = {.exposures = references.flipExposures}};
-            if (!measure.mask.empty()) how.mask = references.masks.at(measure.mask)[i];
+            if (!measure.mask.empty()) {
+                const auto masks = references.masks.find(measure.mask);
+                if (masks == references.masks.end()) continue;  // an optional one, in a scene where nothing switches
+                how.mask = masks->second[i];
+            }
             if (isTemporal(measure.metric)) {
                 if (i == 0 || study.measure[i - 1] + 1 != study.measure[i]) continue;  // nothing to compare the frame with
                 row.metrics[measure.name()] = evaluateStep(

@@ -45,7 +45,8 @@ SceneReferences loadReferences(Stage& stage, const Study& study, std::size_t sce
     if (needsSeen(study)) {
         Seen seen = stage.see(scene);
         for (const Mask& mask : study.masks)
-            if (!mask.graph) references.masks[mask.name] = switchedMasks(seen, study, study.scenes[scene]);
+            if (!mask.graph)
+                if (auto masks = switchedMasks(seen, study, study.scenes[scene], mask.optional); !masks.empty()) references.masks[mask.name] = std::move(masks);
         references.motions = std::move(seen.motions);
     }
     for (const Mask& mask : study.masks)

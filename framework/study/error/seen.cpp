@@ -40,12 +40,14 @@ Seen seeFrames(Renderer& renderer, const Study& study, const StudyScene& file, c
     return seen;
 }
 
-std::vector<std::vector<bool>> switchedMasks(const Seen& seen, const Study& study, const StudyScene& file) {
+std::vector<std::vector<bool>> switchedMasks(const Seen& seen, const Study& study, const StudyScene& file, bool optional) {
     std::vector<std::vector<bool>> masks;
+    const auto switches = [&](std::uint32_t changed) { return changed > std::uint32_t(study.event); };
+    if (optional && std::ranges::none_of(seen.changed, switches)) return masks;
     for (const std::vector<PrimaryHit>& frame : seen.hits) {
         std::vector<bool>& mask = masks.emplace_back();
         for (const PrimaryHit& hit : frame)
-            mask.push_back(hit.primitive != NONE && hit.instance < seen.changed.size() && seen.changed[hit.instance] > std::uint32_t(study.event));
+            mask.push_back(hit.primitive != NONE && hit.instance < seen.changed.size() && switches(seen.changed[hit.instance]));
         if (std::ranges::find(mask, true) == mask.end())
             throw Error(file.where, "no pixel sees an object that takes another level from the study's event on",
                         "check \"frames\" against the scene's schedule, or leave \"mask\" out");

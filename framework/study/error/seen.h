@@ -25,7 +25,7 @@ Graph seenGraph(Renderer& renderer, const StudyScene& file);
 Seen seeFrames(Renderer& renderer, const Study& study, const StudyScene& file, const Scene& scene);
 
 /// Of each measured frame, the pixels whose centres see an object that takes another level at the event or later, up to the last measured frame: the
-/// mask "switched". Error when there is none.
-std::vector<std::vector<bool>> switchedMasks(const Seen& seen, const Study& study, const StudyScene& file);
+/// mask "switched". Error when there is none, unless it is `optional` and no object does: then there are no masks.
+std::vector<std::vector<bool>> switchedMasks(const Seen& seen, const Study& study, const StudyScene& file, bool optional);
 
 }  // namespace lodestir

@@ -13,7 +13,6 @@ struct Samples {
     Cell cell;
     std::map<std::string, PassSummary> passes;  ///< sums
     std::vector<std::string> passOrder;
-    std::map<std::string, double> deviation;
 
     void add(const ResultRow& row) {
         cell.runs.push_back(row.run);
@@ -33,7 +32,7 @@ struct Samples {
         cell.exposure = row.exposure;
         cell.noise = row.noise;
         cell.budget = row.budget;
-        deviation = row.deviation;
+        cell.deviation = row.deviation;
     }
 
     Cell finish() {
@@ -49,7 +48,10 @@ struct Samples {
             for (double* sum : {&pass.milliseconds, &pass.rays}) *sum /= cell.seeds;
             for (auto& [purpose, sum] : pass.purposes) sum /= cell.seeds;
         }
-        for (const auto& [name, values] : cell.values) cell.metrics[name] = withSharedError(estimateMean(values), deviation[name]);
+        for (const auto& [name, values] : cell.values) {
+            const auto shared = cell.deviation.find(name);
+            cell.metrics[name] = withSharedError(estimateMean(values), shared == cell.deviation.end() ? 0 : shared->second);
+        }
         return cell;
     }
 };
@@ -98,6 +100,7 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
     for (Samples& samples : all) summary.cells.push_back(samples.finish());
     summary.comparisons = compareCells(study, summary.cells);
     summary.exponents = exponentsOf(study, summary.cells);
+    summary.outcomes = judgeOutcomes(study, summary.cells);
     return summary;
 }
 

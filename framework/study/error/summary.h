@@ -18,6 +18,7 @@ struct Summary {
     std::vector<Comparison> comparisons;
     std::vector<Exponent> exponents;
     std::vector<Decomposition> decompositions;  ///< where the study keeps images; runErrors() fills them in
+    OutcomeMatrix outcomes;  ///< empty where the study has no rules
     std::set<std::string> devices;
     std::size_t missing = 0;  ///< runs not made yet
     std::size_t foreign = 0;  ///< rows of other versions of the study, its graphs or scenes: left out
@@ -29,6 +30,9 @@ std::set<std::string> finishedRuns(const Study& study, const std::vector<ResultR
 /// `names[i]` is the hash of `runs[i]`.
 Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const std::vector<std::string>& names,
                   const std::vector<ResultRow>& rows);
+
+/// The technique of a cell, with the values of its knobs.
+std::string labelOf(const Study& study, const Cell& cell);
 
 /// "spp 4, mode fast": the knobs without their passes; empty where there are none. `count`: only the first so many.
 std::string knobText(const std::vector<Setting>& knobs, std::size_t count);

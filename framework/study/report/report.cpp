@@ -35,7 +35,7 @@ std::optional<int> draw(const Path& out) {
 
 std::vector<std::string> chartNames() {
     return {"error_vs_time",   "error_vs_rays", "error_vs_frame", "frontier", "time_by_pass",  "rays_by_pass",
-            "rays_by_purpose", "stability",     "comparison",     "ablation", "bias_variance", "stability_matrix"};
+            "rays_by_purpose", "stability",     "comparison",     "ablation", "bias_variance", "stability_matrix", "outcomes"};
 }
 
 void writeReport(const Path& out, const nlohmann::ordered_json& summary) {

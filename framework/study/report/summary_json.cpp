@@ -226,6 +226,26 @@ OrderedJson cellJson(const Study& study, const EnsembleCell& cell) {
     return json;
 }
 
+/// Cases by technique; null where a study has no rules.
+OrderedJson outcomesJson(const Study& study, const OutcomeMatrix& matrix) {
+    if (!study.outcomes) return nullptr;
+    OrderedJson cases = OrderedJson::array();
+    for (std::size_t i = 0; i < matrix.rows.size(); ++i) {
+        const FailureCase& rule = study.outcomes->cases[i];
+        OrderedJson cells = OrderedJson::array();
+        for (const std::optional<OutcomeCell>& cell : matrix.rows[i])
+            cells.push_back(cell ? OrderedJson{{"outcome", nameOf(cell->outcome)}, {"certain", cell->certain}, {"text", numberText(rule, cell->number)}}
+                                 : OrderedJson(nullptr));
+        cases.push_back({{"name", rule.name},
+                         {"scene", study.scenes[rule.scene].name},
+                         {"quantity", nameOf(rule.quantity)},
+                         {"measure", rule.measure},
+                         {"limits", rule.limits},
+                         {"cells", std::move(cells)}});
+    }
+    return {{"columns", matrix.columns}, {"cases", std::move(cases)}};
+}
+
 }  // namespace
 
 OrderedJson summaryJson(const Study& study, const Summary& summary) {
@@ -233,6 +253,7 @@ OrderedJson summaryJson(const Study& study, const Summary& summary) {
     for (std::size_t i = 0; i < study.scenes.size(); ++i) json["scenes"][i]["reference"] = shownReferenceFile(study, i).string();
     json["baseline"] = study.techniques[study.baseline].name;
     if (study.equal) json["equal"] = study.equal->unit();
+    json["outcomes"] = outcomesJson(study, summary.outcomes);
     const std::size_t frames = study.measure.size();
     OrderedJson cells = OrderedJson::array();
     for (std::size_t i = 0; i < summary.cells.size(); ++i)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 
 namespace lodestir::generate {
@@ -53,6 +54,7 @@ struct Glb::Tables {
     json meshes = json::array(), nodes = json::array(), lights = json::array();
     json channels = json::array(), samplers = json::array();  ///< of the one animation
     std::vector<json> geometries;                             ///< primitives without their material
+    std::set<int> levels;                                     ///< nodes that no scene shows of itself
 
     int addPlacedNode(json node, const Placement& placement) {
         if (placement.translation != glm::vec3(0)) node["translation"] = array(placement.translation);
@@ -235,6 +237,22 @@ int Glb::addNode(const LightSource& light, const Placement& placement) {
     return tables->addPlacedNode({{"name", light.name}, {"extensions", {{"KHR_lights_punctual", {{"light", int(tables->lights.size()) - 1}}}}}}, placement);
 }
 
+void Glb::addLevels(int node, const std::vector<Level>& levels) {
+    json ids = json::array(), errors = json::array({0});
+    for (const Level& level : levels) {
+        const std::string name = tables->nodes.at(size_t(node)).at("name").get<std::string>() + "_level_" + std::to_string(errors.size());
+        json coarser = tables->nodes[size_t(node)];  // it stands where the node stands
+        coarser["name"] = name, coarser["mesh"] = level.mesh;
+        ids.push_back(tables->nodes.size());
+        errors.push_back(tidy(level.error));
+        tables->levels.insert(int(tables->nodes.size()));
+        tables->nodes.push_back(coarser);
+    }
+    tables->nodes[size_t(node)]["extensions"]["MSFT_lod"]["ids"] = ids;
+    tables->nodes[size_t(node)]["extras"]["lod_error"] = errors;
+    use("MSFT_lod");
+}
+
 void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values) {
     if (seconds.empty() || seconds.size() != values.size()) throw std::logic_error("an animation needs a value for each of its times");
     const int input = addAccessor(seconds.data(), seconds.size(), 1, floating, 0);
@@ -253,7 +271,8 @@ void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, co
 
 void Glb::write(const std::filesystem::path& path) const {
     json roots = json::array();
-    for (size_t i = 0; i < tables->nodes.size(); ++i) roots.push_back(i);
+    for (size_t i = 0; i < tables->nodes.size(); ++i)
+        if (!tables->levels.contains(int(i))) roots.push_back(i);
 
     json root;
     root["asset"] = {{"version", "2.0"}, {"generator", "lodestir generate_scenes"}};

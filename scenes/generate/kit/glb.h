@@ -72,6 +72,12 @@ struct Placement {
     glm::vec3 scale{1};
 };
 
+/// A coarser level of a node: a mesh that stands where it stands.
+struct Level {
+    int mesh;
+    float error;  ///< largest distance to the finest level, in units of the mesh
+};
+
 /// A rotation that sends -z along `direction`, for lights.
 glm::quat turnTo(const glm::vec3& direction);
 
@@ -111,6 +117,9 @@ public:
     /// addMesh and addNode in one, for things that stand once.
     int addNode(const Model& model, const Placement& placement = {});
     int addNode(const LightSource& light, const Placement& placement = {});
+
+    /// Gives a node coarser levels (MSFT_lod), finer to coarser.
+    void addLevels(int node, const std::vector<Level>& levels);
 
     /// Linear keys at the given seconds; a rotation's are quaternions (x, y, z, w), a weight's is x.
     void animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values);
