@@ -108,7 +108,8 @@ private:
         };
         try {
             const Graph graph = build(less.graph);
-            if (!technique.otherFilter && filtersOf(graph, measuredPort(graph, less.graph)) != filters_) return refuse("it would see through other places of the pixel or lens");
+            if (!technique.otherFilter && filtersOf(graph, measuredPort(graph, less.graph)) != filters_)
+                return refuse("it would see through other places of the pixel or lens");
         } catch (const Error& error) {
             return refuse(error.problems().front().what);
         }

@@ -230,7 +230,8 @@ std::array<ReferenceHalf, 2> Stage::referenceHalves(std::size_t sceneIndex, int 
     const StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
     const int frame = firstAlike(study_, scene_, study_.event + offset);
     Hash content;
-    content.addValue(sceneHash).addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port)).addValue(frame).addValue(study_.referenceSamples);
+    content.addValue(sceneHash).addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
+    content.addValue(frame).addValue(study_.referenceSamples);
     if (finest) content.add("finest");
     const auto half = [&](std::uint32_t index) {
         return ReferenceHalf{sceneIndex, frame, finest, index, folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"))};

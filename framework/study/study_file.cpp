@@ -263,7 +263,8 @@ private:
             if (!masks) return;
             for (const auto& [name, value] : masks->members("\"masks\"")) {
                 if (name.empty() || name.find('.') != name.npos || name == "finest" || name == "switched")
-                    throw Error(value.keyWhere(), fmt::format("a mask can't be named \"{}\"", name), "its name stands behind that of a metric, as in relmse.name");
+                    throw Error(value.keyWhere(), fmt::format("a mask can't be named \"{}\"", name),
+                                "its name stands behind that of a metric, as in relmse.name");
                 StudyGraph graph;
                 if (value.isString()) {
                     graph = {.graph = graphFolder() / "framework/seen.json", .port = value.asString(), .where = value.where(), .portWhere = value.where()};
@@ -317,7 +318,8 @@ private:
         if (study_.equal->technique.empty()) return;
         const Technique& named = study_.techniques[techniqueNamed(Json(study_.equal->technique), "the budget")];
         if (named.solve || !named.vary.empty())
-            throw Error(study_.equal->where, fmt::format("\"{}\" has no cost of its own to give others", named.name), "name a technique without \"vary\" and \"solve\"");
+            throw Error(study_.equal->where, fmt::format("\"{}\" has no cost of its own to give others", named.name),
+                        "name a technique without \"vary\" and \"solve\"");
     }
 
     void readSolve(const Json& solve, Technique& technique) {

@@ -132,14 +132,16 @@ private:
 
     bool isOver() const { return !problem_.empty() || queue_.empty() || work_.stops(); }
 
-    /// Gives every idle worker an item, ends those that there is nothing for any more, and takes what was sent. False: nothing is left to wait for.
+    void give(std::size_t index) {
+        Worker& worker = workers_[index];
+        if (!worker.opened || worker.item != WorkQueue::none || isOver()) return;
+        worker.item = queue_.next(index);
+        if (worker.item != WorkQueue::none) sendMessage(worker.channel, Message::item, std::to_string(worker.item));
+    }
+
+    /// Gives every idle worker an item, and takes what was sent. False: nothing is left to wait for.
     bool serve() {
-        for (std::size_t i = 0; i < workers_.size(); ++i) {
-            Worker& worker = workers_[i];
-            if (!worker.opened || worker.item != WorkQueue::none || isOver()) continue;
-            worker.item = queue_.next(i);
-            if (worker.item != WorkQueue::none) sendMessage(worker.channel, Message::item, std::to_string(worker.item));
-        }
+        for (std::size_t i = 0; i < workers_.size(); ++i) give(i);
         std::vector<pollfd> waiting;
         for (const Worker& worker : workers_) waiting.push_back({worker.channel, POLLIN, 0});
         const bool busy = std::ranges::any_of(workers_, [](const Worker& w) { return !w.opened || w.item != WorkQueue::none; });
@@ -173,8 +175,9 @@ private:
             return true;
         }
         const std::size_t item = std::exchange(worker.item, WorkQueue::none);
-        work_.take(item, text);
         queue_.done(item);
+        give(index);  // before the disk is waited for
+        work_.take(item, text);
         progress_->advance();
         return true;
     }

@@ -153,7 +153,8 @@ protected:
         writeFile(folder / "graph.json", "{}");
     }
     Study load(const std::string& more, const std::string& techniques) {
-        writeFile(folder / "study.json", R"({ "format": 1, "scenes": ["box.json"], "seeds": 3, "reference": { "graph": "graph.json", "spp": 4 }, "metrics": ["mse"], )" +
+        writeFile(folder / "study.json", R"({ "format": 1, "scenes": ["box.json"], "seeds": 3, "reference": { "graph": "graph.json", "spp": 4 },
+                                            "metrics": ["mse"], )" +
                                              more + R"( "techniques": {)" + techniques + "} }");
         return loadStudy(folder / "study.json");
     }
@@ -192,7 +193,8 @@ TEST_F(FairStudy, IsReadAsItIsWritten) {
 }
 
 TEST_F(FairStudy, TellsWhatIsWrong) {
-    EXPECT_EQ(complaint(R"("equal": { "time": 20 },)", plain), "no technique has a knob for the budget; add \"solve\": { \"pass.parameter\": [least, most] } to one");
+    EXPECT_EQ(complaint(R"("equal": { "time": 20 },)", plain),
+              "no technique has a knob for the budget; add \"solve\": { \"pass.parameter\": [least, most] } to one");
     EXPECT_EQ(complaint("", solved), "there is no budget to solve for; add \"equal\" to the study");
     EXPECT_EQ(complaint(R"("equal": { "time": 0 },)", solved), "the budget must be above 0, not 0");
     EXPECT_EQ(complaint(R"("equal": { "watts": 3 },)", solved).substr(0, 39), "\"equal\" needs a \"time\" or \"rays\"; write");

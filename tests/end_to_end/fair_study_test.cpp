@@ -150,7 +150,9 @@ TEST_F(FairStudyTest, TheSameTwiceCoincides) {
 
 // If this fails, a bias is told larger or smaller than it is. What accumulates is 8 % too bright.
 TEST_F(FairStudyTest, APlantedBiasIsAsLargeAsItIs) {
-    plant(folder / "faults", {{.type = "bright", .pass = "accumulate", .file = "accumulate.comp", .right = "vec4(colorRgba(p).rgb, 1)", .wrong = "vec4(1.08 * colorRgba(p).rgb, 1)"}});
+    const Fault brighter{.type = "bright", .pass = "accumulate", .file = "accumulate.comp", .right = "vec4(colorRgba(p).rgb, 1)",
+                         .wrong = "vec4(1.08 * colorRgba(p).rgb, 1)"};
+    plant(folder / "faults", {brighter});
     write("bright.json", {{"format", 1},
                           {"passes", {{"trace", {{"type", "path_tracer"}, {"set", {{"spp", 64}, {"bounces", 4}}}}},
                                       {"sum", {{"type", "bright"}, {"in", {{"color", "trace"}}}}}}},

@@ -118,7 +118,8 @@ TEST_F(KilledRun, StudiesResumeAfterAnyKill) {
                          {"techniques", {{"one", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"variant", "no accumulation"}}},
                                          {"two", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}}}}}});
     const auto command = [&](const std::string& out, int jobs) {
-        return Arguments{LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", (folder / out).string(), "--resume", "--jobs", std::to_string(jobs)};
+        return Arguments{LODESTIR_BINARY, "study",    (folder / "study.json").string(), "--out", (folder / out).string(),
+                         "--resume",      "--jobs", std::to_string(jobs)};
     };
     const auto start = std::chrono::steady_clock::now();
     ASSERT_EQ(runProcess(command("undisturbed", 1)).exitCode, 0);

@@ -72,7 +72,8 @@ EnsembleSummary runEnsemble(Stage& stage, const Study& study, StudyPlace& place)
         work.open = [&] { return stage.workDevice(); };
         work.make = [&](std::size_t item) {
             std::string lines;
-            for (const EnsembleRow& row : measure(runs, stage, study, chunks[todo[item]], names[todo[item]], out / "chunks")) lines += toJson(row).dump() + "\n";
+            const std::size_t i = todo[item];
+            for (const EnsembleRow& row : measure(runs, stage, study, chunks[i], names[i], out / "chunks")) lines += toJson(row).dump() + "\n";
             return lines;
         };
         work.take = [&](std::size_t, const std::string& lines) { results.add(lines); };

@@ -76,7 +76,11 @@ std::vector<Comparison> compareCells(const Study& study, const std::vector<Cell>
         const auto compare = [&](const std::vector<double>& mine, const std::vector<double>& other) {
             return compareValues(mine, cell.drawn, other, baseline.drawn);
         };
-        Comparison comparison{.cell = i, .baseline = found, .metrics = {}, .milliseconds = compare(cell.times, baseline.times), .rays = compare(cell.rayCounts, baseline.rayCounts)};
+        Comparison comparison{.cell = i,
+                              .baseline = found,
+                              .metrics = {},
+                              .milliseconds = compare(cell.times, baseline.times),
+                              .rays = compare(cell.rayCounts, baseline.rayCounts)};
         for (const auto& [name, values] : cell.values)
             if (const auto other = baseline.values.find(name); other != baseline.values.end()) comparison.metrics[name] = compare(values, other->second);
         comparisons.push_back(std::move(comparison));

@@ -155,7 +155,8 @@ private:
         std::erase_if(configurations, [&](const Configuration& c) { return file_.find(c.name) != nullptr; });
         if (configurations.empty()) return;
         if (place_.shard.count > 1 && study_.equal->kind == Budget::Kind::time)
-            throw Error(study_.equal->where, "shards would each solve for a time of their own", "run the study once without --shard first, as far as its first run");
+            throw Error(study_.equal->where, "shards would each solve for a time of their own",
+                        "run the study once without --shard first, as far as its first run");
         Work work{.what = what, .count = fmt::format("{} of {} {}", configurations.size(), all, what)};
         for (const Configuration& configuration : configurations) work.items.push_back({.group = configuration.scene, .scene = configuration.scene});
         work.open = [&] { return stage_.workDevice(); };

@@ -12,7 +12,8 @@ constexpr std::size_t least = 3;  // points: two lie on a line whatever they are
 
 using Points = std::vector<std::size_t>;  ///< cells
 
-void addExponents(std::vector<Exponent>& exponents, const std::vector<Cell>& cells, const Points& points, const std::vector<double>& x, const std::string& over) {
+void addExponents(std::vector<Exponent>& exponents, const std::vector<Cell>& cells, const Points& points, const std::vector<double>& x,
+                  const std::string& over) {
     if (std::set<double>(x.begin(), x.end()).size() < least || std::ranges::any_of(x, [](double v) { return !(v > 0); })) return;
     const Cell& first = cells[points.front()];
     for (const auto& [metric, values] : first.values) {

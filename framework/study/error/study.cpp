@@ -106,7 +106,8 @@ private:
         std::vector<Decomposition> all;
         for (std::size_t i = 0; i < summary.cells.size(); ++i) {
             const Cell& cell = summary.cells[i];
-            if (cell.seeds < 2 || !std::ranges::all_of(cell.runs, [&](const std::string& run) { return isFile(imageFile(images_, run, cell.offset)); })) continue;
+            const auto isKept = [&](const std::string& run) { return isFile(imageFile(images_, run, cell.offset)); };
+            if (cell.seeds < 2 || !std::ranges::all_of(cell.runs, isKept)) continue;
             std::vector<ImageData> images;
             for (const std::string& run : cell.runs) images.push_back(readExr(imageFile(images_, run, cell.offset)));
             const MetricOptions how{.exposure = exposureOf(reference(cell.scene, study_.measure.front(), false).mean)};

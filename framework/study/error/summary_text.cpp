@@ -79,7 +79,8 @@ private:
         for (const Comparison& comparison : summary_.comparisons) {
             if (summary_.cells[comparison.cell].scene != scene) continue;
             const auto isSame = [&](const auto& group) {
-                return isAblation(*group.front()) == isAblation(comparison) && summary_.cells[group.front()->baseline].technique == summary_.cells[comparison.baseline].technique;
+                return isAblation(*group.front()) == isAblation(comparison) &&
+                       summary_.cells[group.front()->baseline].technique == summary_.cells[comparison.baseline].technique;
             };
             const auto group = std::ranges::find_if(groups, isSame);
             if (group == groups.end()) groups.push_back({&comparison});
@@ -89,7 +90,8 @@ private:
         for (auto& group : groups) {
             const Comparison& first = *group.front();
             const bool ablation = isAblation(first);
-            text += fmt::format("  {} \"{}\", 95 %{}\n", ablation ? "without parts of" : "against", study_.techniques[summary_.cells[first.baseline].technique].name,
+            text += fmt::format("  {} \"{}\", 95 %{}\n", ablation ? "without parts of" : "against",
+                                study_.techniques[summary_.cells[first.baseline].technique].name,
                                 std::ranges::all_of(group, isPaired) ? ", seed by seed" : " (*: seeds of their own)");
             text += heading(ablation ? "without" : "technique");
             for (const Measure& measure : measuresOf(study_)) text += fmt::format(" {:>30}", measure.name());
@@ -132,7 +134,8 @@ private:
         std::string text;
         for (const Decomposition& parts : summary_.decompositions) {
             const Cell& cell = summary_.cells[parts.cell];
-            if (cell.scene == scene) text += start(cell) + fmt::format(" {}: squared bias {}, variance {}\n", parts.metric, textOf(parts.bias), textOf(parts.variance));
+            if (cell.scene != scene) continue;
+            text += start(cell) + fmt::format(" {}: squared bias {}, variance {}\n", parts.metric, textOf(parts.bias), textOf(parts.variance));
         }
         return text;
     }
