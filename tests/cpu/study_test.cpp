@@ -436,7 +436,8 @@ TEST_F(StudyTest, SummariesCountWhatIsThere) {
 
 // If this fails, a technique's gain is told against another configuration, or seeds are mixed up.
 TEST_F(StudyTest, PairedSeedsGiveRatiosSeedBySeed) {
-    const Study study = loadStudy(write(R"({ "format": 1, "scenes": ["box.json"], "seeds": [7, 9, 12], "paired": true, "reference": { "graph": "graph.json", "spp": 2 },
+    const Study study = loadStudy(write(R"({ "format": 1, "scenes": ["box.json"], "seeds": [7, 9, 12], "paired": true,
+        "reference": { "graph": "graph.json", "spp": 2 },
         "techniques": { "plain": { "graph": "graph.json" }, "half": { "graph": "graph.json" } }, "metrics": ["mse"] })"));
     const std::vector<StudyRun> runs = expandRuns(study);
     std::vector<std::string> names;

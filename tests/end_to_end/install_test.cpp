@@ -102,7 +102,8 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
 
     // A study draws its report by the installed scripts; where Python lacks a package, it says which.
     const std::string tracer = (prefix / "share/lodestir/graphs/path_tracer.json").string();
-    writeFile(folder / "study.json", R"({ "format": 1, "scenes": [")" + (prefix / "share/lodestir/scenes/cornell.json").string() + R"("], "size": [16, 9], "seeds": 2,
+    const std::string box = (prefix / "share/lodestir/scenes/cornell.json").string();
+    writeFile(folder / "study.json", R"({ "format": 1, "scenes": [")" + box + R"("], "size": [16, 9], "seeds": 2,
         "reference": { "graph": ")" + tracer + R"(", "spp": 8 }, "techniques": { "one": { "graph": ")" + tracer + R"(" } }, "charts": ["error_vs_time"] })");
     const Output study = execute({program, "study", (folder / "study.json").string(), "--out", (folder / "study").string()});
     EXPECT_EQ(study.exitCode, 0) << study.err;
