@@ -9,7 +9,7 @@ from . import ensemble_charts, error_charts
 @dataclass(frozen=True)
 class Chart:
     draw: Callable  # of results, a scene (index) where it is of one, and a metric where it is of one: a Drawing, or None where there is nothing for it
-    of: str = "scene"  # "metric": one for each scene and metric; "scene": one for each scene; "study": over all scenes
+    of: str = "scene"  # "metric": one for each scene and metric; "scene": one for each scene; "study": one for each metric over all scenes; "whole": one
 
 
 ERROR = {
@@ -25,7 +25,7 @@ ERROR = {
     "ablation": Chart(error_charts.ablation, "metric"),
     "bias_variance": Chart(error_charts.bias_variance, "metric"),
     "stability_matrix": Chart(error_charts.stability_matrix, "study"),
-    "outcomes": Chart(error_charts.outcomes, "study"),
+    "outcomes": Chart(error_charts.outcomes, "whole"),
 }
 ENSEMBLE = {
     "energy": Chart(ensemble_charts.energy),

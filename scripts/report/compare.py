@@ -79,7 +79,7 @@ def side_by_side(a, b, s, other, figures):
     known = charts.ERROR if a.kind == "error" else charts.ENSEMBLE
     for name in page.chart_names(a):
         chart = known.get(name)
-        if chart is None or chart.of == "study":
+        if chart is None or chart.of in ("study", "whole"):
             continue
         for metric in a.metrics if chart.of == "metric" else [None]:
             if metric and metric["name"] not in b.error:

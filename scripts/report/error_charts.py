@@ -316,6 +316,16 @@ def stability_matrix(r, metric):
 JUDGED = {"holds": ("holds", "#cfe3f2"), "strained": ("is strained", "#f4cfa4"), "fails": ("fails", "#e08a5b")}
 
 
+def short(text):
+    """The number of a text such as "1.32 +- 0.2" or "-0.342 +- 0.57 %", to two digits."""
+    word = text.split(" ")[0]
+    try:
+        value = float(word)
+    except ValueError:
+        return word
+    return (f"{value:.2g}" if abs(value) >= 0.001 else "0") + (" %" if "%" in text else "")
+
+
 def outcomes(r):
     """Failure case by technique, by the study's own limits: which hold, are strained, or fail."""
     matrix = r.summary.get("outcomes")
@@ -332,8 +342,7 @@ def outcomes(r):
             (box,) = axes.bar(column, 1, width=1, bottom=row - 0.5, color=color, edgecolor="white", linewidth=1)
             doubt = "" if cell["certain"] else "; its 95 % interval reaches another outcome"
             d.hint(box, f"{columns[column]}, {case['name']} ({case['scene']}): {case['quantity']} of {case['measure']} {cell['text']}; {word}{doubt}")
-            axes.text(column, row, cell["text"].split(" ")[0] + (" %" if "%" in cell["text"] else "") + ("" if cell["certain"] else "?"), ha="center", va="center",
-                      fontsize=6.5, color=INK)
+            axes.text(column, row, short(cell["text"]) + ("" if cell["certain"] else "?"), ha="center", va="center", fontsize=6.5, color=INK)
     axes.set_xticks(range(len(columns)), columns, rotation=0 if len(columns) <= 3 else 35, ha="center" if len(columns) <= 3 else "left")
     axes.xaxis.tick_top()
     axes.set_yticks(range(len(cases)), [f"{case['name']}\n{case['quantity']}, {case['limits'][0]:g} / {case['limits'][1]:g}" for case in cases], fontsize=6)

@@ -147,13 +147,23 @@ class ReportTest(unittest.TestCase):
         points = [point(1, 5), point(2, 5), point(2, 3), point(3, 4), point(4, 1), point(4, 2)]
         self.assertEqual([(p.x, p.y) for p in error_charts.undominated(points)], [(1, 5), (2, 3), (4, 1)])
 
+    def test_outcomes_are_the_study_s(self):
+        """If this fails, a technique that fails is coloured as one that holds."""
+        d = error_charts.outcomes(load(self.folder))
+        svg = d.svg()
+        for text in ("reuse, steps aside (box): spike of relmse 1.3 +- 0.1; is strained", "slow &amp; poor, steps aside (box): spike of relmse never; fails; its 95 % interval reaches another outcome"):
+            self.assertIn(f"<title>{text}</title>", svg)
+        self.assertEqual(svg.count("<title>"), 2)
+        d.close()
+
     def test_outcomes(self):
         self.assertEqual([error_charts.outcome(m, 0.1, 1.0, 0.1) for m in (1.0, 1.2, 1.3, 2.5, 6.0)], [0, 0, 1, 2, 3])
 
     def test_nothing_is_clipped(self):
         """Every text of every chart lies within the figure, whose width is a paper's column."""
         r = load(self.folder)
-        draw = [(chart.draw, (0, r.metrics[0]) if chart.of == "metric" else (0,) if chart.of == "scene" else (r.metrics[2],)) for chart in charts.ERROR.values()]
+        arguments_of = {"metric": (0, r.metrics[0]), "scene": (0,), "study": (r.metrics[2],), "whole": ()}
+        draw = [(chart.draw, arguments_of[chart.of]) for chart in charts.ERROR.values()]
         for chart, arguments in draw:
             d = chart(r, *arguments)
             d.finish()
