@@ -48,6 +48,14 @@ class LODESTIR_API Problems {
 public:
     void add(Where where, std::string what, std::string hint = {});
     void add(const Error& error);
+    /// Does a part and gathers the Error that it throws, so that the parts after it are tried as well.
+    template <class F> void attempt(const F& part) {
+        try {
+            part();
+        } catch (const Error& error) {
+            add(error);
+        }
+    }
     bool empty() const { return problems_.empty(); }
     const std::vector<Problem>& list() const { return problems_; }
     /// Throws Error with everything gathered, sorted by place; does nothing when there is nothing.

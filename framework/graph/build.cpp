@@ -49,19 +49,11 @@ public:
 private:
     std::vector<GraphNode>& nodes() { return graph_.nodes; }
 
-    template <class F> void attempt(const F& part) {
-        try {
-            part();
-        } catch (const Error& error) {
-            problems_.add(error);
-        }
-    }
-
     void makeNode(const std::string& name, const std::string& type, const Where& where, const Where& typeWhere, GraphNode& node) {
         node.name = name;
         node.type = type;
         node.where = where;
-        attempt([&] {
+        problems_.attempt([&] {
             node.plugin = &libraries_.find(type, typeWhere);
             node.code = libraries_.codeOf(type);
             node.pass.reset(node.plugin->create());
@@ -128,13 +120,13 @@ private:
     void setParameters(std::size_t i) {
         if (!descriptions_[i]) return;
         for (const Setting& setting : descriptions_[i]->settings) {
-            attempt([&] { setParameter(graph_, nodes()[i].name + "." + setting.name, setting.value); });
+            problems_.attempt([&] { setParameter(graph_, nodes()[i].name + "." + setting.name, setting.value); });
         }
     }
 
     void bindEdges(std::size_t i) {
         if (!descriptions_[i]) return;
-        for (const EdgeDescription& edge : descriptions_[i]->edges) attempt([&] { bindEdge(i, edge); });
+        for (const EdgeDescription& edge : descriptions_[i]->edges) problems_.attempt([&] { bindEdge(i, edge); });
     }
 
     void bindEdge(std::size_t i, const EdgeDescription& edge) {
@@ -306,7 +298,7 @@ private:
             GraphNode& node = nodes()[i];
             if (!node.pass || node.off) continue;
             for (const Wire& wire : wiresOf(*node.pass, isInput)) {
-                attempt([&] {
+                problems_.attempt([&] {
                     for (int p = wire.first; p < wire.first + wire.count; ++p) bypassOffSource(node, std::size_t(p), placeOf(int(i), wire.first));
                 });
             }
@@ -326,7 +318,7 @@ private:
         const Description& d = graph_.description;
         const int node = graph_.find(d.showNode);
         if (node >= 0 && !nodes()[std::size_t(node)].pass) return;
-        attempt([&] { graph_.show = findSource(graph_, d.showPort.empty() ? d.showNode : d.showNode + "." + d.showPort, d.showWhere); });
+        problems_.attempt([&] { graph_.show = findSource(graph_, d.showPort.empty() ? d.showNode : d.showNode + "." + d.showPort, d.showWhere); });
     }
 
     /// Told at the edge that runs against the order of the file: most likely the one that was meant to be @prev.
@@ -367,7 +359,7 @@ private:
     }
 
     void checkSizes() {
-        attempt([&] {  // the first that is wrong makes its followers wrong, too
+        problems_.attempt([&] {  // the first that is wrong makes its followers wrong, too
             for (std::size_t i = 0; i < nodes().size(); ++i) {
                 for (std::size_t p = 0; p < nodes()[i].pass->ports.size(); ++p) countOf(graph_, int(i), int(p), graph_.description.size);
             }

@@ -119,20 +119,13 @@ void applyOptions(Json& source, const GraphOptions& options, Problems& problems)
         value.moveTo(Where{option});
         return value;
     };
-    const auto attempt = [&](const auto& change) {
-        try {
-            change();
-        } catch (const Error& error) {
-            problems.add(error);
-        }
-    };
-    attempt([&] {
+    problems.attempt([&] {
         if (!options.scene) return;
         if (options.scene->empty()) throw Error("--scene names no file");
         source["scene"] = place(std::filesystem::absolute(*options.scene).lexically_normal().string(), "--scene");
     });
     if (options.show) source["show"] = place(*options.show, "--show");
-    attempt([&] {
+    problems.attempt([&] {
         if (options.frames) source["frame"]["count"] = place(*options.frames, "--frames");
         if (options.seed) source["frame"]["seed"] = place(std::int64_t(*options.seed), "--seed");
         if (!options.size) return;
@@ -141,7 +134,7 @@ void applyOptions(Json& source, const GraphOptions& options, Problems& problems)
         size.push(std::int64_t(options.size->y));
         source["frame"]["size"] = place(std::move(size), "--size");
     });
-    for (const Setting& setting : options.set) attempt([&] { applySetting(source, setting); });
+    for (const Setting& setting : options.set) problems.attempt([&] { applySetting(source, setting); });
 }
 
 /// Reads the members of the file one after the other; what is wrong is noted and the rest read on.
@@ -151,29 +144,21 @@ public:
 
     void read() {
         const Json& source = d.source;
-        attempt([&] { source.expectOnly(keys, "the graph", problems_); });
-        attempt([&] { readFormat(source); });
-        if (const Json* about = source.find("about")) attempt([&] { d.about = about->asString("\"about\""); });
-        if (const Json* schema = source.find("$schema")) attempt([&] { schema->asString("\"$schema\""); });
-        if (const Json* scene = source.find("scene")) attempt([&] { readScene(*scene); });
-        if (const Json* frame = source.find("frame")) attempt([&] { readFrame(*frame); });
+        problems_.attempt([&] { source.expectOnly(keys, "the graph", problems_); });
+        problems_.attempt([&] { readFormat(source); });
+        if (const Json* about = source.find("about")) problems_.attempt([&] { d.about = about->asString("\"about\""); });
+        if (const Json* schema = source.find("$schema")) problems_.attempt([&] { schema->asString("\"$schema\""); });
+        if (const Json* scene = source.find("scene")) problems_.attempt([&] { readScene(*scene); });
+        if (const Json* frame = source.find("frame")) problems_.attempt([&] { readFrame(*frame); });
         const Json* passes = source.find("passes");
         if (!passes) problems_.add(source.where(), "the graph has no \"passes\"");
-        if (passes) attempt([&] { readPasses(*passes); });
+        if (passes) problems_.attempt([&] { readPasses(*passes); });
         const Json* show = source.find("show");
         if (!show) problems_.add(source.where(), "the graph shows nothing", "add \"show\": \"pass.port\"");
-        if (show) attempt([&] { readShow(*show); });
+        if (show) problems_.attempt([&] { readShow(*show); });
     }
 
 private:
-    template <class F> void attempt(const F& part) {
-        try {
-            part();
-        } catch (const Error& error) {
-            problems_.add(error);
-        }
-    }
-
     void readFormat(const Json& source) {
         const Json* format = source.find("format");
         if (!format) throw Error(source.where(), "the graph has no \"format\"", "add \"format\": 1");
@@ -198,16 +183,16 @@ private:
         static const std::vector<std::string> known{"size", "count", "seed"};
         frame.expectOnly(known, "\"frame\"", problems_);
         if (const Json* size = frame.find("size"))
-            attempt([&] {
+            problems_.attempt([&] {
                 const std::vector<Json>& items = size->items("\"size\"");
                 if (items.size() != 2) throw Error(size->where(), "\"size\" must be [width, height], in pixels");
-                attempt([&] { d.size.x = std::uint32_t(readWithin(items[0], "the frame's width", 1, maxFrameSize)); });
-                attempt([&] { d.size.y = std::uint32_t(readWithin(items[1], "the frame's height", 1, maxFrameSize)); });
+                problems_.attempt([&] { d.size.x = std::uint32_t(readWithin(items[0], "the frame's width", 1, maxFrameSize)); });
+                problems_.attempt([&] { d.size.y = std::uint32_t(readWithin(items[1], "the frame's height", 1, maxFrameSize)); });
             });
         if (const Json* count = frame.find("count"))
-            attempt([&] { d.count = int(readWithin(*count, "\"count\"", 1, std::numeric_limits<int>::max())); });
+            problems_.attempt([&] { d.count = int(readWithin(*count, "\"count\"", 1, std::numeric_limits<int>::max())); });
         if (const Json* seed = frame.find("seed"))
-            attempt([&] { d.seed = std::uint32_t(readWithin(*seed, "\"seed\"", 0, std::numeric_limits<std::uint32_t>::max())); });
+            problems_.attempt([&] { d.seed = std::uint32_t(readWithin(*seed, "\"seed\"", 0, std::numeric_limits<std::uint32_t>::max())); });
     }
 
     void readPasses(const Json& passes) {
@@ -218,7 +203,7 @@ private:
             if (name == "frame")
                 problems_.add(value.keyWhere(), "\"frame\" can't be the name of a pass", "--set frame.seed=1 means the frame");
             d.nodes.push_back({.name = name, .where = value.keyWhere()});
-            attempt([&, &node = value] { readNode(node, d.nodes.back()); });
+            problems_.attempt([&, &node = value] { readNode(node, d.nodes.back()); });
         }
     }
 
@@ -229,7 +214,7 @@ private:
         const Json* type = value.find("type");
         if (!type) problems_.add(node.where, what + " has no \"type\"");
         if (type)
-            attempt([&] {
+            problems_.attempt([&] {
                 node.typeWhere = type->where();
                 std::string folder, name;
                 if (!readReference(type->asString("\"type\""), folder, name))
@@ -237,16 +222,16 @@ private:
                 node.type = type->asString();
             });
         if (const Json* off = value.find("off"))
-            attempt([&] {
+            problems_.attempt([&] {
                 node.offWhere = off->where();
                 node.off = off->asBool("\"off\"");
             });
         if (const Json* in = value.find("in"))
-            attempt([&] {
-                for (const Json::Member& input : in->members("\"in\"")) attempt([&] { node.edges.push_back(readEdge(input.first, input.second)); });
+            problems_.attempt([&] {
+                for (const Json::Member& input : in->members("\"in\"")) problems_.attempt([&] { node.edges.push_back(readEdge(input.first, input.second)); });
             });
         if (const Json* set = value.find("set"))
-            attempt([&] {
+            problems_.attempt([&] {
                 for (const auto& [name, setting] : set->members("\"set\"")) node.settings.push_back({name, setting});
             });
     }

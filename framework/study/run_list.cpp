@@ -3,6 +3,7 @@
 
 #include <framework/core/files.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <charconv>
@@ -46,6 +47,10 @@ nlohmann::ordered_json knobJson(const std::vector<Setting>& knobs) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     for (const Setting& knob : knobs) json[knob.name] = knob.value.plain();
     return json;
+}
+
+std::string configurationKey(std::size_t scene, std::size_t technique, const std::vector<Setting>& knobs) {
+    return fmt::format("{} {} {}", scene, technique, knobJson(knobs).dump());
 }
 
 Shard readShard(const std::string& text) {

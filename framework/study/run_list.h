@@ -31,6 +31,10 @@ std::vector<StudyRun> expandRuns(const Study& study);
 /// {"trace.spp": 4}
 nlohmann::ordered_json knobJson(const std::vector<Setting>& knobs);
 
+/// What runs have in common that differ in their seed only.
+std::string configurationKey(std::size_t scene, std::size_t technique, const std::vector<Setting>& knobs);
+inline std::string configurationKey(const StudyRun& run) { return configurationKey(run.scene, run.technique, run.knobs); }
+
 /// Every `count`th run, for several machines at work on one study.
 struct Shard {
     std::size_t index = 1, count = 1;  ///< index counts from 1

@@ -153,7 +153,7 @@ const Hash& Stage::sceneContent(std::size_t index) {
 }
 
 std::string Stage::nameOf(const StudyRun& run) {
-    const std::string key = fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+    const std::string key = configurationKey(run);
     const auto [place, isNew] = contents_.try_emplace(key);
     if (isNew) place->second = contentOf(run);
     return Hash(place->second).addValue(run.seed).hex();
@@ -207,7 +207,7 @@ std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     const Technique& technique = study_.techniques[run.technique];
     scene(run.scene);  // a new one ends the runners of another
     const auto build = [&] { return this->build(technique.graph, run.knobs, run.scene, run.seed); };
-    KeptRunner& kept = runners_.get(renderer_.device(), fmt::format("{} {}", run.technique, knobJson(run.knobs).dump()), build,
+    KeptRunner& kept = runners_.get(renderer_.device(), configurationKey(run), build,
                                     [&](StagedGraph& staged) { return makeRunner(staged, run.scene); });
     kept.staged.graph.description.seed = run.seed;
     std::vector<StagedFrame> frames;

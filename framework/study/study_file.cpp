@@ -35,18 +35,18 @@ public:
         study_.kind = StudyKind(kind);
         readScenes(fields.require("scenes"));
         study_.sizes = {StudyScene().size};
-        attempt([&] { readSizes(fields.find("size")); });
+        problems_.attempt([&] { readSizes(fields.find("size")); });
         takeSizes();
         study_.measure = {0};
         if (const Json* frames = fields.find("frames")) readFrames(*frames);
         if (const Json* reference = fields.require("reference")) readReference(*reference);
         if (study_.kind == StudyKind::error) readBudget(fields.find("equal"));
         readTechniques(fields.require("techniques"));
-        attempt([&] { study_.paired = readFlag(fields.find("paired"), "\"paired\""); });
+        problems_.attempt([&] { study_.paired = readFlag(fields.find("paired"), "\"paired\""); });
         if (study_.kind == StudyKind::ensemble) {
             readRuns(fields);
         } else {
-            attempt([&] { readSeeds(fields.require("seeds")); });
+            problems_.attempt([&] { readSeeds(fields.require("seeds")); });
             std::vector<std::string> metrics = metricNames();
             std::ranges::copy(temporalMetricNames(), std::back_inserter(metrics));
             study_.metrics = readNames(fields.find("metrics"), "metric", metrics, {"relmse", "mse"});
@@ -54,7 +54,7 @@ public:
             study_.charts = readNames(fields.find("charts"), "chart", chartNames(), chartNames());
             readMasks(fields);
             readBaseline(fields);
-            attempt([&] { study_.decompose = readFlag(fields.find("decompose"), "\"decompose\""); });
+            problems_.attempt([&] { study_.decompose = readFlag(fields.find("decompose"), "\"decompose\""); });
             if (const Json* outcomes = fields.find("outcomes")) study_.outcomes = readOutcomes(*outcomes, study_, problems_);
         }
         fields.finish();
@@ -70,13 +70,6 @@ private:
         Json json = Json::load(file);
         expectKind(json, FileKind::study);
         return json;
-    }
-    template <class F> void attempt(const F& part) {
-        try {
-            part();
-        } catch (const Error& error) {
-            problems_.add(error);
-        }
     }
     /// Lists of values multiply: four of a hundred values each are a hundred million runs.
     void checkRuns() const {
@@ -105,11 +98,11 @@ private:
     }
 
     void readScenes(const Json* scenes) {
-        attempt([&] {
+        problems_.attempt([&] {
             if (!scenes) return;
             if (scenes->items("\"scenes\"").empty()) throw Error(scenes->where(), "the study has no scenes");
             for (const Json& item : scenes->items())
-                attempt([&] {
+                problems_.attempt([&] {
                     const Path file = resolve(item, "a scene");
                     const std::string name = file.stem().string();
                     if (std::ranges::find(study_.scenes, name, &StudyScene::name) != study_.scenes.end())
@@ -171,14 +164,14 @@ private:
 
     /// Of an ensemble: how many runs, from which seed on, and how sure it has to be.
     void readRuns(Fields& fields) {
-        attempt([&] {
+        problems_.attempt([&] {
             const Json* runs = fields.require("runs");
             int seed = 1;
             fields.integer("seed", seed, 0, maxSeed - maxSeedCount);
             const std::int64_t count = runs ? within(*runs, "the number of runs", leastRuns, maxSeedCount) : 0;
             for (std::int64_t i = 0; i < count; ++i) study_.seeds.push_back(std::uint32_t(seed + i));
         });
-        attempt([&] {
+        problems_.attempt([&] {
             const Json* width = fields.find("halfWidth");
             if (!width) return;
             study_.halfWidth = width->asNumber("\"halfWidth\"");
@@ -209,7 +202,7 @@ private:
         frames.integer("event", study_.event, 0, maxFrame);
         if (study_.event < study_.warmup)
             problems_.add(value.where(), fmt::format("{} frames of warm-up don't fit before frame {}", study_.warmup, study_.event));
-        attempt([&] {
+        problems_.attempt([&] {
             if (const Json* measure = frames.find("measure")) study_.measure = readOffsets(*measure, "\"measure\"", "a measured frame");
         });
         frames.finish();
@@ -218,15 +211,15 @@ private:
     void readGraph(Fields& fields, StudyGraph& graph) {
         const Json* file = fields.require("graph");
         if (file) graph.where = file->where();
-        if (file) attempt([&] { graph.graph = resolve(*file, "\"graph\""); });
-        if (const Json* variant = fields.find("variant")) attempt([&] {
+        if (file) problems_.attempt([&] { graph.graph = resolve(*file, "\"graph\""); });
+        if (const Json* variant = fields.find("variant")) problems_.attempt([&] {
             graph.variant = variant->asString("\"variant\"");
             graph.variantWhere = variant->where();
         });
         if (const Json* port = fields.find("port")) graph.portWhere = port->where();
         fields.text("port", graph.port);
         if (const Json* set = fields.find("set"))
-            attempt([&] {
+            problems_.attempt([&] {
                 for (const auto& [name, setting] : set->members("\"set\"")) graph.set.push_back({checkedName(name, setting, setting.keyWhere()), setting});
             });
     }
@@ -258,7 +251,7 @@ private:
         std::size_t mask = 0;
         fields.choice("mask", mask, {"none", "switched", "switched_if_any"});
         if (mask >= 1) study_.masks.push_back({.name = "switched", .graph = {}, .optional = mask == 2});
-        attempt([&] {
+        problems_.attempt([&] {
             const Json* masks = fields.find("masks");
             if (!masks) return;
             for (const auto& [name, value] : masks->members("\"masks\"")) {
@@ -287,14 +280,14 @@ private:
         throw Error(value.where(), fmt::format("no technique \"{}\"", name), didYouMean(name, known));
     }
     void readBaseline(Fields& fields) {
-        attempt([&] {
+        problems_.attempt([&] {
             if (const Json* baseline = fields.find("baseline")) study_.baseline = techniqueNamed(*baseline, "\"baseline\"");
         });
     }
 
     /// One cost that all are given: a number, or the name of a technique that takes it.
     void readBudget(const Json* equal) {
-        attempt([&] {
+        problems_.attempt([&] {
             if (!equal) return;
             const auto& members = equal->members("\"equal\"");
             if (members.size() != 1 || (members[0].first != "time" && members[0].first != "rays"))
@@ -339,9 +332,9 @@ private:
     void readReference(const Json& value) {
         Fields fields(value, "the reference", problems_);
         readGraph(fields, study_.reference);
-        if (study_.kind == StudyKind::error) attempt([&] { study_.referenceFinest = readFlag(fields.find("finest"), "\"finest\""); });
+        if (study_.kind == StudyKind::error) problems_.attempt([&] { study_.referenceFinest = readFlag(fields.find("finest"), "\"finest\""); });
         if (const Json* samples = fields.require("spp"))
-            attempt([&] {
+            problems_.attempt([&] {
                 study_.referenceSamples = int(within(*samples, "the reference's \"spp\"", 2, maxReferenceSamples));
                 if (study_.kind == StudyKind::ensemble && study_.referenceSamples % referenceBatches != 0)
                     throw Error(samples->where(), fmt::format("the reference's \"spp\" must be a multiple of {}", referenceBatches),
@@ -353,25 +346,25 @@ private:
     }
 
     void readTechniques(const Json* techniques) {
-        attempt([&] {
+        problems_.attempt([&] {
             if (!techniques) return;
             if (techniques->members("\"techniques\"").empty()) throw Error(techniques->where(), "the study has no techniques");
             for (const auto& [name, value] : techniques->members()) {
                 Fields fields(value, fmt::format("technique \"{}\"", name), problems_);
                 Technique technique{.name = name};
                 readGraph(fields, technique.graph);
-                if (const Json* vary = fields.find("vary")) attempt([&] { readVary(*vary, technique); });
-                attempt([&] { technique.otherFilter = readFlag(fields.find("otherFilter"), "\"otherFilter\""); });
+                if (const Json* vary = fields.find("vary")) problems_.attempt([&] { readVary(*vary, technique); });
+                problems_.attempt([&] { technique.otherFilter = readFlag(fields.find("otherFilter"), "\"otherFilter\""); });
                 if (study_.kind == StudyKind::error) {
-                    if (const Json* solve = fields.find("solve")) attempt([&] { readSolve(*solve, technique); });
+                    if (const Json* solve = fields.find("solve")) problems_.attempt([&] { readSolve(*solve, technique); });
                     std::size_t ablate = 0;
                     fields.choice("ablate", ablate, {"none", "auto", "pairs"});
                     technique.ablate = Ablate(ablate);
                     if (const Json* clear = fields.find("clear"))
-                        attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });
+                        problems_.attempt([&] { technique.clear = readOffsets(*clear, "\"clear\"", "a frame before which history is cleared"); });
                 } else {
-                    attempt([&] { technique.control = readFlag(fields.find("control"), "\"control\""); });
-                    attempt([&] { technique.planted = readFlag(fields.find("planted"), "\"planted\""); });
+                    problems_.attempt([&] { technique.control = readFlag(fields.find("control"), "\"control\""); });
+                    problems_.attempt([&] { technique.planted = readFlag(fields.find("planted"), "\"planted\""); });
                     if (technique.control && technique.planted)
                         problems_.add(value.where(), fmt::format("technique \"{}\" can't be both right and wrong", name),
                                       "\"control\" is known to be unbiased, \"planted\" to be biased");
@@ -384,7 +377,7 @@ private:
 
     void readVary(const Json& vary, Technique& technique) {
         for (const Json::Member& member : vary.members("\"vary\""))
-            attempt([&] {
+            problems_.attempt([&] {
                 const auto& [name, values] = member;
                 if (values.items(fmt::format("\"{}\"", name)).empty())
                     throw Error(values.where(), fmt::format("\"{}\" has no values to take", name));
@@ -405,9 +398,9 @@ private:
                                        std::vector<std::string> names) {
         if (!value) return names;
         names.clear();
-        attempt([&] {
+        problems_.attempt([&] {
             for (const Json& item : value->items(fmt::format("\"{}s\"", what)))
-                attempt([&] {
+                problems_.attempt([&] {
                     const std::string& name = item.asString("a " + what);
                     if (std::ranges::find(known, name) == known.end())
                         throw Error(item.where(), fmt::format("unknown {} \"{}\"", what, name), didYouMean(name, known));

@@ -21,10 +21,6 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr int timings = 3;  // runs whose median is a value's time: single ones are disturbed
 
-std::string configurationKey(std::size_t scene, std::size_t technique, const std::vector<Setting>& knobs) {
-    return fmt::format("{} {} {}", scene, technique, knobJson(knobs).dump());
-}
-
 /// A configuration that costs something: one with a knob to solve for, or the one whose cost is the budget.
 struct Configuration {
     std::size_t scene = 0, technique = 0;

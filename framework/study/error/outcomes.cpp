@@ -25,13 +25,13 @@ public:
         std::string baseline;
         fields.text("baseline", baseline);
         if (const Json* name = fields.find("baseline"))
-            attempt([&] {
+            problems_.attempt([&] {
                 rules_.baseline = indexOf(study_.techniques, baseline, "technique", name->where());
                 if (!study_.techniques[*rules_.baseline].vary.empty())
                     throw Error(name->where(), "the baseline's knobs vary", "name a technique without \"vary\"");
             });
         if (const Json* cases = fields.require("cases"))
-            attempt([&] {
+            problems_.attempt([&] {
                 for (const Json& item : cases->items("\"cases\"")) readCase(item);
                 if (rules_.cases.empty()) throw Error(cases->where(), "there are no cases");
             });
@@ -40,14 +40,6 @@ public:
     }
 
 private:
-    template <class F> void attempt(const F& part) {
-        try {
-            part();
-        } catch (const Error& error) {
-            problems_.add(error);
-        }
-    }
-
     template <class T> static std::size_t indexOf(const std::vector<T>& all, const std::string& name, const char* what, const Where& where) {
         std::vector<std::string> names;
         for (const T& one : all) names.push_back(one.name);
@@ -62,14 +54,14 @@ private:
         fields.require("name"), fields.text("name", rule.name);
         std::string scene;
         fields.text("scene", scene);
-        if (const Json* name = fields.require("scene")) attempt([&] { rule.scene = indexOf(study_.scenes, scene, "scene", name->where()); });
+        if (const Json* name = fields.require("scene")) problems_.attempt([&] { rule.scene = indexOf(study_.scenes, scene, "scene", name->where()); });
         std::size_t quantity = 0;
         if (fields.require("quantity")) fields.choice("quantity", quantity, quantityNames);
         rule.quantity = StabilityQuantity(quantity);
         fields.text("measure", rule.measure);
-        if (const Json* name = fields.require("measure")) attempt([&] { checkMeasure(rule, *name); });
+        if (const Json* name = fields.require("measure")) problems_.attempt([&] { checkMeasure(rule, *name); });
         if (const Json* limits = fields.require("limits"))
-            attempt([&] {
+            problems_.attempt([&] {
                 const std::vector<double> numbers = numbersOf(*limits, "\"limits\"", 2);
                 rule.limits = {numbers[0], numbers[1]};
                 if (!(numbers[0] < numbers[1]))

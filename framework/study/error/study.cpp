@@ -78,7 +78,7 @@ private:
     WorkItem itemOf(const Piece& piece) {
         if (piece.half) return {.group = groups_++, .scene = piece.half->scene, .opens = true};
         const StudyRun& run = runs_[piece.run];
-        const std::string key = study_.judgesTime() ? std::to_string(run.scene) : fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+        const std::string key = study_.judgesTime() ? std::to_string(run.scene) : configurationKey(run);
         const auto [place, isNew] = configurations_.emplace(key, groups_);
         groups_ += isNew;
         return {.group = place->second, .scene = run.scene};

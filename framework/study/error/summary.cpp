@@ -82,7 +82,7 @@ Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const s
     std::vector<Samples> all;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const StudyRun& run = runs[i];
-        const std::string key = fmt::format("{} {} {}", run.scene, run.technique, knobJson(run.knobs).dump());
+        const std::string key = configurationKey(run);
         const auto [place, isNew] = places.emplace(key, all.size());
         if (isNew)
             for (const int offset : study.measure)
