@@ -14,6 +14,7 @@ namespace lodestir {
 struct StagedGraph {
     Graph graph;
     Source port;  ///< an image in linear radiance
+    std::vector<Source> counters;  ///< of the study's counters, in their order; none of a reference
 };
 
 struct KeptRunner {

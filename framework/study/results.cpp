@@ -52,6 +52,7 @@ OrderedJson toJson(const ResultRow& row) {
             {"frame", row.offset},
             {"ms", row.milliseconds},
             {"passes", std::move(costs)},
+            {"counts", row.counts},
             {"metrics", row.metrics},
             {"referenceNoise", row.noise},
             {"referenceDeviation", row.deviation},
@@ -73,6 +74,8 @@ ResultRow rowOf(const OrderedJson& json) {
                   .milliseconds = numberOf(json.at("ms"))};
     for (const auto& [name, cost] : json.at("passes").items())
         row.passes.push_back({name, numberOf(cost.at("ms")), cost.at("rays").get<std::map<std::string, std::uint64_t>>()});
+    if (json.contains("counts"))  // rows of earlier versions have none
+        for (const auto& [name, value] : json.at("counts").items()) row.counts[name] = numberOf(value);
     for (const auto& [name, value] : json.at("metrics").items()) row.metrics[name] = numberOf(value);
     for (const auto& [name, value] : json.at("referenceNoise").items()) row.noise[name] = numberOf(value);
     if (json.contains("referenceDeviation"))  // rows of earlier versions have none

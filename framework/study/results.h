@@ -36,6 +36,7 @@ struct ResultRow {
     std::string device;
     double milliseconds = 0;  ///< on the device
     std::vector<PassCost> passes;
+    std::map<std::string, double> counts;  ///< of the study's counters
     std::map<std::string, double> metrics;
     std::map<std::string, double> noise;  ///< of the reference, already taken out of the metrics named here
     std::map<std::string, double> deviation;  ///< of the reference: standard deviation that it gives all seeds' metrics named here alike

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 namespace lodestir {
@@ -55,6 +56,28 @@ Json placed(Json value, const Where& where) {
     return value;
 }
 
+/// Gives parameters the values that others are given.
+void addAlike(std::vector<Setting>& set, const std::vector<std::pair<std::string, std::string>>& alike) {
+    for (const auto& [name, from] : alike) {
+        const auto given = std::ranges::find(set.rbegin(), set.rend(), from, &Setting::name);
+        if (given != set.rend()) set.push_back({name, given->value});
+    }
+}
+
+/// The port of a counter; Error where it holds no number.
+Source counterPort(const Graph& graph, const Counter& counter) {
+    Source source;
+    try {
+        source = findSource(graph, counter.port);
+    } catch (const Error& error) {
+        throw Error(counter.where, error.problems().front().what, error.problems().front().hint);
+    }
+    const Port& port = graph.port(source);
+    const bool isNumber = port.type.kind == PortType::Kind::buffer && port.type.name == "uint" && port.count.kind == Count::Kind::fixed && port.count.number <= 2;
+    if (!isNumber) throw Error(counter.where, fmt::format("{} is no number", counter.port), "a count is read from a buffer of one uint, or of two as 64 bits");
+    return source;
+}
+
 /// But for the frame that they belong to.
 bool sameView(CameraKey a, const CameraKey& b) {
     a.frame = b.frame;
@@ -89,6 +112,7 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
                          .variantWhere = choice.variantWhere,
                          .patches = choice.patches};
     options.set.insert(options.set.end(), knobs.begin(), knobs.end());
+    addAlike(options.set, choice.alike);
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port = measuredPort(staged.graph, choice);
     const Port& port = staged.graph.port(staged.port);
@@ -98,6 +122,12 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
     if (sizeOf(staged.graph, staged.port.node, staged.port.port, options.size.value()) != *options.size)
         throw Error(where, "the measured port " + staged.graph.nameOf(staged.port) + " is smaller than the frame",
                     "name another with \"port\"");
+    return staged;
+}
+
+StagedGraph Stage::buildTechnique(const Technique& technique, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
+    StagedGraph staged = build(technique.graph, knobs, scene, seed);
+    for (const Counter& counter : study_.counters) staged.counters.push_back(counterPort(staged.graph, counter));
     return staged;
 }
 
@@ -130,7 +160,7 @@ void Stage::check() {
             for (auto& knobs : combinations(technique))
                 attempt([&] {
                     if (technique.solve) knobs.push_back({technique.solve->name, placed(Json(technique.solve->high), technique.solve->where)});
-                    const StagedGraph staged = build(technique.graph, knobs, scene, study_.seeds.front());
+                    const StagedGraph staged = buildTechnique(technique, knobs, scene, study_.seeds.front());
                     expectSameFilter(study_, technique, filtersOf(staged.graph, staged.port), referenceFilters);
                 });
     problems.raise();
@@ -171,6 +201,8 @@ Hash Stage::contentOf(const StudyRun& run) {
     if (needsSeen(study_)) hash.addValue(lodestir::contentOf(seenGraph(renderer_, study_.scenes[run.scene])));
     for (const Mask& mask : study_.masks)
         if (mask.graph) add(build(*mask.graph, {}, run.scene, 0));
+    for (const Counter& counter : study_.counters) hash.add(counter.name + "\n" + counter.port + "\n");
+    if (study_.countSteps) hash.add("steps\n");
     for (const int value : {study_.warmup, study_.event}) hash.addValue(value);
     for (const int offset : study_.measure) hash.addValue(offset);
     for (const Measure& measure : measuresOf(study_)) hash.add(measure.name() + "\n");
@@ -185,7 +217,9 @@ StagedGraph Stage::buildReference(std::size_t scene, int samples) {
 }
 
 std::unique_ptr<Runner> Stage::makeRunner(StagedGraph& staged, std::size_t index) {
-    return renderer_.bringUp(staged.graph, scene(index), {.pinned = {staged.port}});
+    std::vector<Source> pinned = staged.counters;
+    pinned.push_back(staged.port);
+    return renderer_.bringUp(staged.graph, scene(index), {.pinned = std::move(pinned), .countSteps = study_.countSteps});
 }
 
 ImageData Stage::imageOf(const Runner& runner, const StagedGraph& staged) {
@@ -206,13 +240,32 @@ void Stage::runFrames(Runner& runner, const std::vector<int>& clear, const std::
 std::vector<StagedFrame> Stage::render(const StudyRun& run) {
     const Technique& technique = study_.techniques[run.technique];
     scene(run.scene);  // a new one ends the runners of another
-    const auto build = [&] { return this->build(technique.graph, run.knobs, run.scene, run.seed); };
+    const auto build = [&] { return buildTechnique(technique, run.knobs, run.scene, run.seed); };
     KeptRunner& kept = runners_.get(renderer_.device(), configurationKey(run), build,
                                     [&](StagedGraph& staged) { return makeRunner(staged, run.scene); });
     kept.staged.graph.description.seed = run.seed;
     std::vector<StagedFrame> frames;
-    runFrames(*kept.runner, technique.clear, [&](FrameReport& report) { frames.push_back({std::move(report), imageOf(*kept.runner, kept.staged)}); });
+    runFrames(*kept.runner, technique.clear, [&](FrameReport& report) {
+        std::map<std::string, double> counts = countsOf(*kept.runner, kept.staged, report, run.scene);
+        frames.push_back({std::move(report), imageOf(*kept.runner, kept.staged), std::move(counts)});
+    });
     return frames;
+}
+
+std::map<std::string, double> Stage::countsOf(const Runner& runner, const StagedGraph& staged, const FrameReport& report, std::size_t scene) const {
+    std::map<std::string, double> counts;
+    for (std::size_t i = 0; i < staged.counters.size(); ++i) {
+        const std::vector<std::byte> bytes = runner.readBytes(staged.counters[i]);
+        std::uint64_t number = 0;
+        std::memcpy(&number, bytes.data(), std::min(bytes.size(), sizeof number));
+        counts[study_.counters[i].name] = double(number);
+    }
+    if (!study_.countSteps) return counts;
+    double steps = 0;
+    for (const PassReport& pass : report.passes)
+        if (!pass.setup) steps += double(pass.rays[RAYS_STEPS]);
+    counts[std::string(stepsName)] = steps / study_.scenes[scene].pixels();
+    return counts;
 }
 
 std::vector<ImageData> Stage::renderMask(const StudyGraph& graph, std::size_t scene) {

@@ -25,6 +25,7 @@ inline constexpr std::uint64_t samplesPerFrame = 1 << 23;
 struct StagedFrame {
     FrameReport report;
     ImageData image;  ///< three channels
+    std::map<std::string, double> counts;
 };
 
 /// One of the two independent images that a reference is made of.
@@ -72,6 +73,10 @@ public:
     Seen see(std::size_t scene);
 
 private:
+    /// A technique's graph, with the ports of the study's counters.
+    StagedGraph buildTechnique(const Technique& technique, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed);
+    /// What is counted of the runner's last frame.
+    std::map<std::string, double> countsOf(const Runner& runner, const StagedGraph& staged, const FrameReport& report, std::size_t scene) const;
     /// Runs a graph from the warm-up to the last measured frame; `take` reads the measured ones.
     void runFrames(Runner& runner, const std::vector<int>& clear, const std::function<void(FrameReport&)>& take);
     Hash contentOf(const StudyRun& run);

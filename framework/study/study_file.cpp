@@ -53,6 +53,7 @@ public:
             checkSteps(fields.find("metrics"));
             study_.charts = readNames(fields.find("charts"), "chart", chartNames(), chartNames());
             readMasks(fields);
+            readCounters(fields);
             readBaseline(fields);
             problems_.attempt([&] { study_.decompose = readFlag(fields.find("decompose"), "\"decompose\""); });
             if (const Json* outcomes = fields.find("outcomes")) study_.outcomes = readOutcomes(*outcomes, study_, problems_);
@@ -218,6 +219,15 @@ private:
         });
         if (const Json* port = fields.find("port")) graph.portWhere = port->where();
         fields.text("port", graph.port);
+        if (const Json* alike = fields.find("alike"))
+            problems_.attempt([&] {
+                for (const auto& [name, other] : alike->members("\"alike\"")) {
+                    const std::string& from = other.asString("a parameter");
+                    checkedName(name, other, other.keyWhere());
+                    checkedName(from, other, other.where());
+                    graph.alike.emplace_back(name, from);
+                }
+            });
         if (const Json* set = fields.find("set"))
             problems_.attempt([&] {
                 for (const auto& [name, setting] : set->members("\"set\"")) graph.set.push_back({checkedName(name, setting, setting.keyWhere()), setting});
@@ -267,6 +277,18 @@ private:
                     members.finish();
                 }
                 study_.masks.push_back({name, std::move(graph)});
+            }
+        });
+    }
+
+    void readCounters(Fields& fields) {
+        problems_.attempt([&] { study_.countSteps = readFlag(fields.find("countSteps"), "\"countSteps\""); });
+        problems_.attempt([&] {
+            const Json* counts = fields.find("counts");
+            if (!counts) return;
+            for (const auto& [name, port] : counts->members("\"counts\"")) {
+                if (name.empty() || name == stepsName) throw Error(port.keyWhere(), fmt::format("a count can't be named \"{}\"", name));
+                study_.counters.push_back({name, port.asString("a port"), port.where()});
             }
         });
     }
@@ -429,6 +451,13 @@ std::vector<Measure> measuresOf(const Study& study) {
         add({}, finest);
     }
     return measures;
+}
+
+std::vector<std::string> Study::countNames() const {
+    std::vector<std::string> names;
+    for (const Counter& counter : counters) names.push_back(counter.name);
+    if (countSteps) names.emplace_back(stepsName);
+    return names;
 }
 
 Study loadStudy(const Path& file) { return StudyReader(file).read(); }

@@ -22,6 +22,7 @@ struct StudyGraph {
     std::optional<std::string> variant;
     std::vector<Json> patches;  ///< merged into the graph behind the variant
     std::vector<Setting> set;
+    std::vector<std::pair<std::string, std::string>> alike;  ///< parameters, and those whose values they take
     std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
     Where where;       ///< of the graph's name
     Where variantWhere, portWhere;
@@ -37,6 +38,16 @@ struct Knob {
 struct SolvedKnob {
     std::string name;  ///< "pass.parameter"
     int low = 1, high = 1;
+    Where where;
+};
+
+/// The count of nodes that rays visit, a pixel.
+inline constexpr std::string_view stepsName = "steps";
+
+/// A number that every frame of a technique has beside its time and rays.
+struct Counter {
+    std::string name;
+    std::string port;  ///< "pass.port": a buffer of one uint or, as 64 bits with the low word first, of two
     Where where;
 };
 
@@ -116,6 +127,8 @@ struct Study {
     std::vector<Technique> techniques;
     std::vector<std::string> metrics, charts;  ///< none in an ensemble
     std::vector<Mask> masks;                   ///< errors there are measured beside those of the whole frame
+    std::vector<Counter> counters;
+    bool countSteps = false;                   ///< nodes that rays visit are a count, "steps", a pixel
     std::size_t baseline = 0;                  ///< technique that others are compared with
     std::optional<Budget> equal;               ///< that techniques with a knob to solve for are given
     bool decompose = false;                    ///< images of all runs are kept, and bias and variance told apart
@@ -129,6 +142,8 @@ struct Study {
                    return chart == "error_vs_time" || chart == "time_by_pass";
                }));
     }
+    /// Of all that is counted, in the order of tables.
+    std::vector<std::string> countNames() const;
     bool isMeasured(int offset) const { return std::ranges::find(measure, offset) != measure.end(); }
 };
 

@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 from typing import Callable
 
-from . import ensemble_charts, error_charts
+from . import ensemble_charts, error_charts, needs_charts
 
 
 @dataclass(frozen=True)
 class Chart:
     draw: Callable  # of results, a scene (index) where it is of one, and a metric where it is of one: a Drawing, or None where there is nothing for it
-    of: str = "scene"  # "metric": one for each scene and metric; "scene": one for each scene; "study": one for each metric over all scenes; "whole": one
+    of: str = "scene"  # "metric": one for each scene and metric; "scene": one for each scene; "count": one for each scene, metric and
+    # count; "study": one for each metric over all scenes; "whole": one
 
 
 ERROR = {
@@ -25,6 +26,9 @@ ERROR = {
     "ablation": Chart(error_charts.ablation, "metric"),
     "bias_variance": Chart(error_charts.bias_variance, "metric"),
     "stability_matrix": Chart(error_charts.stability_matrix, "study"),
+    "error_vs_count": Chart(needs_charts.error_vs_count, "count"),
+    "needs": Chart(needs_charts.needs, "count"),
+    "advantage": Chart(needs_charts.advantage, "metric"),
     "outcomes": Chart(error_charts.outcomes, "whole"),
 }
 ENSEMBLE = {

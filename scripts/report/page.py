@@ -54,6 +54,10 @@ def drawings_of(r, s, names, figures):
         if chart and chart.of == "metric":
             for metric in r.metrics:
                 drawn += figures.draw(chart.draw, r, s, metric)
+        elif chart and chart.of == "count":
+            for metric in r.metrics:
+                for count in r.counts:
+                    drawn += figures.draw(chart.draw, r, s, metric, count)
         elif chart and chart.of == "scene":
             drawn += figures.draw(chart.draw, r, s)
     return drawn

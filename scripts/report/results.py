@@ -166,6 +166,7 @@ class Results:
         self.rays, self.rays_half_width = self._empty(), self._empty()
         self.pass_ms, self.pass_rays = self._empty(len(self.passes)), self._empty(len(self.passes), len(self.purposes))
         self.seeds = self._empty(seeds)
+        self.counts = {name: self._empty() for name in self.summary.get("counts", [])}
         self.error, self.half_width = {name: self._empty() for name in names}, {name: self._empty() for name in names}
         self.values = {name: self._empty(seeds) for name in names}
         self.comparison = {name: self._empty(3) for name in [*names, "ms", "rays"]}
@@ -191,6 +192,8 @@ class Results:
             self.rays[at] = real(cell["rays"]["mean"]) / pixels
             self.rays_half_width[at] = real(cell["rays"]["halfWidth"]) / pixels
             self.seeds[at][:len(cell["seeds"])] = cell["seeds"]
+            for name, found in cell.get("counts", {}).items():
+                self.counts[name][at] = real(found["mean"])
             for name, cost in cell["passes"].items():
                 place = self.passes.index(name)
                 self.pass_ms[at][place] = real(cost["ms"])

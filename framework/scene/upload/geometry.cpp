@@ -14,6 +14,13 @@ MeshRecord meshRecord(const Box& box, std::size_t levels) {
             .levels = std::uint32_t(levels)};
 }
 
+/// Of all arrays that a level has a part of; positions are uploaded as four words.
+std::uint32_t bytesOf(const Bvh& bvh, const MeshLevel& level) {
+    constexpr std::size_t triangle = sizeof(BvhTriangle) + sizeof(PrimitiveRecord) + sizeof(std::uint32_t);
+    constexpr std::size_t vertex = sizeof(glm::vec4) + sizeof(VertexRecord);
+    return std::uint32_t(bvh.nodes.size() * sizeof(BvhNode) + bvh.triangles.size() * triangle + level.positions.size() * vertex);
+}
+
 }  // namespace
 
 Geometry::Geometry(const Scene& scene)
@@ -42,7 +49,7 @@ void Geometry::addLevel(const Scene& scene, std::size_t m, std::size_t l) {
     const auto firstTriangle = std::uint32_t(triangles.size()), firstVertex = std::uint32_t(positions.size());
     places_[m].push_back({firstVertex, level.positions.size(), {nodes.size(), bvh.nodes.size(), firstTriangle, bvh.triangles.size()}});
     roots[m * LEVELS + l] = appendNodes(bvh, nodes, firstTriangle);
-    levels[m * LEVELS + l] = {firstTriangle, std::uint32_t(bvh.triangles.size()), level.error};
+    levels[m * LEVELS + l] = {firstTriangle, std::uint32_t(bvh.triangles.size()), level.error, bytesOf(bvh, level)};
     triangles.insert(triangles.end(), bvh.triangles.begin(), bvh.triangles.end());
     for (std::uint32_t t : bvh.order) {
         const glm::uvec3 corners = level.triangles[t];

@@ -57,7 +57,7 @@ struct LevelRecord {
     uint firstPrimitive;  // in World.primitives
     uint primitiveCount;
     float error;          // measured distance to level 0, object units
-    uint pad;
+    uint bytes;           // that its triangles, nodes and vertices take
 };
 
 // What selecting a level asks of a mesh.

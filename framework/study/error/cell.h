@@ -26,6 +26,7 @@ struct Cell {
     double milliseconds = 0, fastest = 0, slowest = 0;  ///< median and extremes over seeds: a busy machine makes outliers
     Estimate rays;                                      ///< of the whole frame
     std::vector<PassSummary> passes;
+    std::map<std::string, Estimate> counts;
     std::map<std::string, Estimate> metrics;
     std::map<std::string, double> noise;      ///< of the reference
     std::map<std::string, double> deviation;  ///< standard deviation that the reference gives all seeds' metrics alike
@@ -36,6 +37,7 @@ struct Cell {
     std::vector<std::string> runs;     ///< hashes
     std::vector<std::uint32_t> drawn;  ///< the seeds themselves
     std::vector<double> times, rayCounts;
+    std::map<std::string, std::vector<double>> countValues;
     std::map<std::string, std::vector<double>> values;  ///< of the metrics
 };
 

@@ -37,6 +37,7 @@ std::vector<ResultRow> measureRun(Stage& stage, const Study& study, const StudyR
                       .device = stage.device().name + ", " + std::string(nameOf(stage.rays())),
                       .milliseconds = frames[i].report.milliseconds,
                       .passes = costsOf(frames[i].report),
+                      .counts = frames[i].counts,
                       .exposure = references.exposure};
         for (const Measure& measure : measuresOf(study)) {
             const std::vector<Halves>& halves = measure.finest ? references.finest : references.frames;

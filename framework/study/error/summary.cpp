@@ -28,6 +28,7 @@ struct Samples {
                 place->second.purposes[purpose] += double(count);
             }
         }
+        for (const auto& [name, value] : row.counts) cell.countValues[name].push_back(value);
         for (const auto& [name, value] : row.metrics) cell.values[name].push_back(value);
         cell.exposure = row.exposure;
         cell.noise = row.noise;
@@ -42,6 +43,7 @@ struct Samples {
         cell.fastest = std::ranges::min(cell.times);
         cell.slowest = std::ranges::max(cell.times);
         cell.rays = estimateMean(cell.rayCounts);
+        for (const auto& [name, values] : cell.countValues) cell.counts[name] = estimateMean(values);
         for (const std::string& name : passOrder) {
             PassSummary& pass = cell.passes.emplace_back(passes[name]);
             pass.name = name;

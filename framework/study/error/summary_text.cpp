@@ -36,11 +36,13 @@ private:
 
     std::string errors(std::size_t scene) const {
         std::string text = heading() + fmt::format(" {:>5} {:>10} {:>10}", "seeds", "ms", "rays/px");
+        for (const std::string& name : study_.countNames()) text += fmt::format(" {:>10}", name);
         for (const Measure& measure : measuresOf(study_)) text += fmt::format(" {:>30}", measure.name() + " +- 95 %");
         text += "\n";
         for (const Cell& cell : summary_.cells) {
             if (cell.scene != scene || cell.seeds == 0) continue;
             text += start(cell) + fmt::format(" {:>5} {:>10.4g} {:>10.4g}", cell.seeds, cell.milliseconds, cell.rays.mean / study_.scenes[scene].pixels());
+            for (const std::string& name : study_.countNames()) text += fmt::format(" {:>10.4g}", cell.counts.at(name).mean);
             for (const Measure& measure : measuresOf(study_)) {
                 const auto found = cell.metrics.find(measure.name());  // of a sequence, the first frame has none
                 text += fmt::format(" {:>30}", found == cell.metrics.end() ? "-" : textOf(found->second));

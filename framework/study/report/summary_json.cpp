@@ -82,6 +82,7 @@ OrderedJson studyJson(const Study& study, const std::set<std::string>& devices, 
             {"referenceSamples", study.referenceSamples},
             {"techniques", std::move(techniques)},
             {"metrics", std::move(metrics)},
+            {"counts", study.countNames()},
             {"charts", study.charts},
             {"missing", missing},
             {"foreign", foreign}};
@@ -125,6 +126,9 @@ OrderedJson cellJson(const Study& study, const Cell& cell, std::span<const Cell>
     OrderedJson passes = OrderedJson::object(), metrics = OrderedJson::object();
     for (const PassSummary& pass : cell.passes) passes[pass.name] = {{"ms", pass.milliseconds}, {"rays", pass.purposes}};
     json["passes"] = std::move(passes);
+    OrderedJson counts = OrderedJson::object();
+    for (const auto& [name, estimate] : cell.counts) counts[name] = toJson(estimate);
+    json["counts"] = std::move(counts);
     for (const auto& [name, estimate] : cell.metrics) {
         OrderedJson metric = toJson(estimate);
         metric["values"] = cell.values.at(name);

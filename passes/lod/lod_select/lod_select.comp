@@ -2,9 +2,17 @@
 // One invocation an instance.
 #version 460
 #include "pass.glsl"
-#include "lod/screen_error.glsl"
+#include "lod/total_error.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Words { uint at[]; };
+
+/// Adds to a number of 64 bits: the sum of the low words runs over in one of the additions only.
+void countTriangles(uint n) {
+    if (addTriangles(0, n) > 0xffffffffu - n) addTriangles(1, 1);
+}
+void countBytes(uint n) {
+    if (addBytes(0, n) > 0xffffffffu - n) addBytes(1, 1);
+}
 
 void main() {
     if (skip()) return;
@@ -12,11 +20,20 @@ void main() {
     World w = madeWorld();
     Words levels = Words(uint64_t(w.levels)), levelsChanged = Words(uint64_t(w.levelsChanged));
     bool known = historyValid() && worldPrev().instanceCount == w.instanceCount;
-    uint last = known ? worldPrev().levels.at[instance] : 0;
+    uint last = known ? worldPrev().levels.at[instance] : 0, mesh = w.instances.at[instance].mesh;
     uint level = levels.at[instance];
+    if (argument(0) == uint(mode_fixed)) level = min(uint(params.level), w.meshes.at[mesh].levels - 1u);
     if (argument(0) == uint(mode_distance)) level = levelByDistance(w, instance, params.distance, known, last, params.hysteresis);
     if (argument(0) == uint(mode_screen_error)) level = levelByError(w, instance, uintBitsToFloat(argument(1)), known, last, params.hysteresis);
+    if (argument(0) == uint(mode_total_error))
+        level = levelByTotalError(w, instance, TotalError(params.edges, params.samples, params.doubling), known, last, params.hysteresis);
     levels.at[instance] = level;
     if (!known || level != last) atomicOr(levelsChanged.at[0], 1);
     if (known && level != last && instance < changedCount()) storeChanged(instance, frameIndex() + 1);
+
+    if ((w.instances.at[instance].flags & INSTANCE_HIDDEN) != 0u) return;
+    uint place = mesh * LEVELS + min(level, w.meshes.at[mesh].levels - 1u);  // levels that aren't there are the coarsest
+    LevelRecord record = w.meshLevels.at[place];
+    countTriangles(record.primitiveCount);
+    if (addShown(place, 1) == 0) countBytes(record.bytes);
 }

@@ -8,7 +8,7 @@
 
 using namespace lodestir;
 
-enum class Mode { scene, finest, schedule, distance, screen_error };
+enum class Mode { scene, finest, fixed, schedule, distance, screen_error, total_error };
 
 struct LodSelect final : Pass {
     In<World>           world{this, "world", "the scene"};
@@ -17,12 +17,23 @@ struct LodSelect final : Pass {
     State<Buffer<uint>> changed{this, "changed",
                                 "of each instance, the number of the frame after the one in which its level last changed; 0: it never has",
                                 Count::fixed(1 << 16)};
-    Param<Mode>         mode{this, "mode", Mode::scene, {"scene", "finest", "schedule", "distance", "screen_error"},
-                     "how levels are chosen: as the scene file says; finest; by the scene file's schedule; by distance; the coarsest whose measured error "
-                     "projects below pixelError"};
+    Out<Buffer<uint>>   triangles{this, "triangles", "of the levels shown, over all instances: 64 bits, the low word first", Count::fixed(2)};
+    Out<Buffer<uint>>   bytes{this, "bytes", "that the levels shown take, each once: 64 bits, the low word first", Count::fixed(2)};
+    Scratch<Buffer<uint>> shown{this, "shown", "of level l of mesh m at m * LEVELS + l: 1 where an instance shows it", Count::reserved()};
+    Param<Mode>         mode{this, "mode", Mode::scene, {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error"},
+                     "how levels are chosen: as the scene file says; finest; one for all; by the scene file's schedule; by distance; the coarsest whose "
+                     "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost"};
+    Param<int>          level{this, "level", 0, {0, int(LEVELS) - 1}, "of fixed: what all instances show; the coarsest where a mesh has fewer"};
     Param<float>        pixelError{this, "pixelError", 0, {0, 1000}, "largest error on the screen, pixels; 0: the scene file's"};
     Param<float>        hysteresis{this, "hysteresis", 0.2f, {0, 0.9f},
-                                   "a coarser level is taken only where it stays below the limit by this share, so that levels don't flicker"};
+                                   "a coarser level is taken only where it stays below the limit by this share, so that levels don't flicker; of total_error: any "
+                                   "other level only where it wins this share of what the triangles between them cost"};
+    Param<float>        samples{this, "samples", 1, {0.001f, 1e9f},
+                                "of total_error: paths a pixel that the picture is made of, those of earlier frames that it reuses included"};
+    Param<float>        edges{this, "edges", 0.1f, {0, 1e6f},
+                              "of total_error: squared error of an object whose geometry is off by a pixel, as a multiple of the variance of one path"};
+    Param<float>        doubling{this, "doubling", 0.04f, {0, 1},
+                                 "of total_error: by how much a path costs more, as a share, when all it meets has twice the triangles"};
     Param<int>          lead{this, "lead", 0, {0, 1'000'000},
                              "frames by which the schedule is read ahead: what a run would look like in which its switches had been made that much earlier"};
     Param<float>        distance{this, "distance", 8, {0.01f, 1e6f},
@@ -42,6 +53,8 @@ struct LodSelect final : Pass {
         made.levelsChanged = made.levels + count * sizeof(std::uint32_t);
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
+        frame.reserve(shown, std::uint32_t(scene.meshes.size()) * LEVELS);
+        for (const Port* port : {static_cast<const Port*>(&shown), static_cast<const Port*>(&triangles), static_cast<const Port*>(&bytes)}) frame.fill(*port, 0);
         frame.dispatch(shader, {count, 1}, {std::uint32_t(chosen), std::bit_cast<std::uint32_t>(limit)});
     }
 
@@ -57,4 +70,5 @@ private:
     }
 };
 LODESTIR_PASS(LodSelect, "lod_select.comp",
-              "Chooses the level of detail of each instance: finest, scheduled, by distance, or by the error that a level makes on the screen.")
+              "Chooses the level of detail of each instance: finest, fixed, scheduled, by distance, by the error that a level makes on the screen, or by that "
+              "and the noise that a budget leaves.")

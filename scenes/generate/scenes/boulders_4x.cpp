@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The field of boulders with a model of 19,200 triangles.
+#include "kit/boulders.h"
+#include "kit/scene.h"
+
+namespace lodestir::generate {
+
+static Glb makeBoulders() { return boulderField(2); }
+
+LODESTIR_SCENE(makeBoulders, "--levels 5 --ratio 4 --mesh boulder")
+
+}  // namespace lodestir::generate

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: MIT
+"""How much model a scene needs: errors against what is counted beside time and rays, such as triangles, and levels chosen against fixed ones."""
+import numpy
+
+from .drawing import GREY, Drawing, curve_style, number, with_interval
+from .error_charts import shown_frame
+from .plots import Point, at_frame, devices, draw_points, slug, with_unit
+from .results import configuration_of
+
+ENOUGH = 1.1  # times the least error: what no eye asks more for
+
+
+def point_of(r, scene, c, frame, metric, count, text=""):
+    error, half = r.error[metric["name"]][scene, c, frame], r.half_width[metric["name"]][scene, c, frame]
+    x = r.counts[count][scene, c, frame]
+    return Point(x, error, f"{r.labels[c]}: {number(x)} {count}, {metric['name']} {with_interval(error, half)}", (error - half, error + half), label=text)
+
+
+def measured_at(r, scene, frame):
+    return [c for c in range(len(r.configurations)) if r.cell(scene, c, frame)]
+
+
+def error_vs_count(r, scene, metric, count):
+    frame, curves = shown_frame(r, metric), {}
+    for c in measured_at(r, scene, frame):
+        curve = r.configurations[c].curve
+        curves.setdefault(curve, ((r.place[r.labels[c]][0],), []))[1].append(point_of(r, scene, c, frame, metric, count))
+    d = Drawing(slug(r.scenes[scene], f"error_vs_{count}", metric["name"]), f"{metric['name']} against {count}{at_frame(r, frame)}")
+    return draw_points(d, curves, count + (" a pixel" if count == "steps" else ""), with_unit(metric), True, metric["fromZero"])
+
+
+def geometry_of(r, scene, frame, metric):
+    """{configuration: squared bias and half of its interval}"""
+    return {configuration_of(parts): [numpy.nan if value is None else value for value in (parts["squaredBias"]["mean"], parts["squaredBias"]["halfWidth"])]
+            for parts in r.summary.get("decompositions", [])
+            if (parts["scene"], parts["frame"], parts["metric"]) == (r.scenes[scene], r.frames[frame], metric["name"])}
+
+
+def knee(points):
+    """The point with the least x whose y is within ENOUGH of the least."""
+    least = min(p.y for p in points)
+    return min((p for p in points if p.y <= ENOUGH * least), key=lambda p: p.x)
+
+
+def needs(r, scene, metric, count):
+    """Of the baseline, which has a knob for the model and, last, one for the effort: the error against the size of the model, a curve an effort, and what of
+    it is the model's. Of each curve the least model that is enough is marked."""
+    frame, curves, model = shown_frame(r, metric), {}, []
+    bias = geometry_of(r, scene, frame, metric)
+    for c in measured_at(r, scene, frame):
+        configuration = r.configurations[c]
+        if configuration.technique != r.summary["baseline"] or len(configuration.knobs) < 2:
+            continue
+        effort = configuration.point
+        curves.setdefault(effort, []).append(point_of(r, scene, c, frame, metric, count))
+        if configuration in bias:
+            mean, half = bias[configuration]
+            about = f"{configuration.curve}: {number(r.counts[count][scene, c, frame])} {count}, squared bias {with_interval(mean, half)}"
+            model.append((half, Point(r.counts[count][scene, c, frame], mean, about, (mean - half, mean + half))))
+    if not curves or not metric["fromZero"]:
+        return None
+    drawn = {f"all, {effort}": ((i,), sorted(points, key=lambda p: p.x)) for i, (effort, points) in enumerate(curves.items())}
+    best = {}  # of each model the effort that tells its bias best
+    for half, point in model:
+        if point.x not in best or half < best[point.x][0]:
+            best[point.x] = half, point
+    drawn["geometry alone"] = ((len(drawn),), [best[x][1] for x in sorted(best)])
+    d = Drawing(slug(r.scenes[scene], f"needs_{count}", metric["name"]), f"What the scene needs: {metric['name']} against {count}{at_frame(r, frame)}")
+    draw_points(d, drawn, count + (" a pixel" if count == "steps" else ""), with_unit(metric), True, True)
+    for (place, points) in list(drawn.values())[:-1]:
+        found = knee([p for p in points if p.y > 0])
+        (mark,) = d.axes.plot([found.x], [found.y], marker="o", markersize=9, markerfacecolor="none", markeredgecolor=curve_style(*place)["color"], linestyle="none")
+        d.hint(mark, f"enough: {found.about}")
+    d.note += f"Circles: the least {count} whose error is within {round(100 * (ENOUGH - 1))} % of the curve's least."
+    return d
+
+
+def cost_of(r, scene, c, frame):
+    return r.counts["steps"][scene, c, frame] if "steps" in r.counts else r.ms[scene, c, frame]
+
+
+def error_at(cost, points):
+    """Of one curve, seed by seed: errors at a cost, between measured ones. Error is a + b / cost where samples are independent, so that it is straight over
+    1 / cost. None where nothing so cheap was measured."""
+    points = sorted(points, key=lambda p: p[0])
+    if cost < points[0][0] * (1 - 1e-9):
+        return None
+    after = next((i for i, (x, _) in enumerate(points) if x >= cost), len(points) - 1)
+    if after == 0 or len(points) == 1:
+        return points[0][1]
+    (x0, y0), (x1, y1) = points[after - 1], points[after]
+    share = (1 / x0 - 1 / cost) / (1 / x0 - 1 / x1)
+    return y0 + share * (y1 - y0)
+
+
+def advantages(r, scene, metric, frame=None):
+    """Rows (configuration, cost, curve of the baseline that is best at that cost, ratio of the errors, half of its interval in logarithms)."""
+    frame = shown_frame(r, metric) if frame is None else frame
+    values, curves, rows = r.values[metric["name"]], {}, []
+    measured = measured_at(r, scene, frame)
+    for c in measured:
+        if r.configurations[c].technique == r.summary["baseline"]:
+            curves.setdefault(r.configurations[c].curve, []).append((cost_of(r, scene, c, frame), values[scene, c, frame]))
+    for c in measured:
+        configuration = r.configurations[c]
+        if configuration.technique == r.summary["baseline"]:
+            continue
+        cost = cost_of(r, scene, c, frame)
+        found = {curve: error_at(cost, points) for curve, points in curves.items()}
+        found = {curve: errors for curve, errors in found.items() if errors is not None}
+        if not found:
+            continue
+        best = min(found, key=lambda curve: numpy.nanmean(found[curve]))
+        rows.append((c, cost, best, *ratio(values[scene, c, frame], found[best])))
+    return rows
+
+
+def ratio(mine, other):
+    """Of means of independent runs, and half of the 95 % interval of its logarithm."""
+    mine, other = mine[numpy.isfinite(mine)], other[numpy.isfinite(other)]
+    spread = [numpy.var(v, ddof=1) / len(v) / numpy.mean(v) ** 2 if len(v) > 1 else numpy.nan for v in (mine, other)]
+    return numpy.mean(mine) / numpy.mean(other), 1.96 * numpy.sqrt(sum(spread))
+
+
+def advantage(r, scene, metric):
+    """Errors as multiples of the best that any curve of the baseline has at the same cost."""
+    if not metric["fromZero"]:
+        return None
+    curves = {}
+    for c, cost, best, middle, half in advantages(r, scene, metric):
+        configuration = r.configurations[c]
+        low, high = middle * numpy.exp(-half), middle * numpy.exp(half)
+        about = f"{configuration.label}: {number(middle)} ({number(low, 3)} to {number(high, 3)}) times {best} at {number(cost)}"
+        curves.setdefault(configuration.curve, ((r.place[configuration.label][0],), []))[1].append(Point(cost, middle, about, (low, high)))
+    if not curves:
+        return None
+    frame = shown_frame(r, metric)
+    d = Drawing(slug(r.scenes[scene], "advantage", metric["name"]), f"{metric['name']} against the best of {r.summary['baseline']}{at_frame(r, frame)}")
+    x_label = "steps a pixel" if "steps" in r.counts else f"time of the frame (ms, {devices(r)})"
+    draw_points(d, curves, x_label, f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, False)
+    d.axes.axhline(1, color=GREY, linewidth=0.8, zorder=1)
+    d.note += "Below 1: nearer than any of them at equal cost, which is taken between measured ones. Lines: 95 %."
+    return d
