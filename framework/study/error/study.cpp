@@ -31,7 +31,7 @@ public:
 
     Summary run() {
         equal_ = solveEqual(stage_, study_, place_);
-        if (!place_.problem.empty() || place_.stops()) return {};  // which runs there are isn't known yet
+        if (!place_.problem.empty() || place_.stops()) return {.missing = expandRuns(study_).size()};  // which those are isn't known yet
         runs_ = expandRuns(study_, equal_);
         for (const StudyRun& run : runs_) names_.push_back(stage_.nameOf(run));
         makeMissing();
