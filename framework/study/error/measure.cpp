@@ -56,7 +56,7 @@ std::vector<ResultRow> measureRun(Stage& stage, const Study& study, const StudyR
             row.metrics[measure.name()] = measureError(measure.metric, frames[i].image, reference, how);
             if (const double deviation = referenceDeviation(measure.metric, reference, how); deviation > 0)
                 row.deviation[measure.name()] = deviation;
-            if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, reference, how);
+            if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, frames[i].image, reference, how);
         }
         if (!images.empty()) writeExr(imageFile(images, name, study.measure[i]), frames[i].image);
         rows.push_back(std::move(row));

@@ -112,7 +112,7 @@ private:
             for (const std::string& run : cell.runs) images.push_back(readExr(imageFile(images_, run, cell.offset)));
             const MetricOptions how{.exposure = exposureOf(reference(cell.scene, study_.measure.front(), false).mean)};
             for (const Measure& measure : measuresOf(study_)) {
-                if (!isNoiseFree(measure.metric) || !measure.mask.empty()) continue;
+                if (!isDecomposed(measure.metric) || !measure.mask.empty()) continue;
                 Decomposition parts = decompose(measure.metric, images, reference(cell.scene, cell.offset, measure.finest), how);
                 parts.cell = i;
                 parts.metric = measure.name();
