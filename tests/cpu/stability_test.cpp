@@ -13,7 +13,7 @@
 namespace lodestir {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double unsettled = std::numeric_limits<double>::infinity();
 
 /// One run more or less shows every frame the same.
 Course steady(const std::vector<int>& offsets, const std::vector<double>& errors, int runs = 3) {
@@ -42,10 +42,13 @@ TEST(Stability, RecoveryIsWhenTheErrorIsBackForGood) {
     EXPECT_EQ(recovery({1, 1, 1.05, 1, 1, 1, 1}), 0);
     EXPECT_EQ(recovery({1, 1, 3, 2, 1.09, 1, 1}), 2);
     EXPECT_EQ(recovery({1, 1, 3, 2, 1.11, 1, 1}), 4);
-    EXPECT_EQ(recovery({1, 1, 5, 4, 3.2, 3, 3}), 2) << "it settles higher than it was";
+    EXPECT_EQ(recovery({1, 1, 5, 4, 3.2, 3, 3}), unsettled) << "it stays higher than it was, and may be falling yet";
+    EXPECT_EQ(recovery({1, 1, 1.8, 1.5, 1.4, 1.25, 1.15}), unsettled) << "it falls, but the last frame is no place to call settled";
+    EXPECT_EQ(recovery({1, 1, 3, 2, 2, 2, 1.09}), 8) << "back in the last frame";
+    EXPECT_EQ(recovery({0.5, 1.5, 3, 2, 1.09, 1, 1}), 2) << "the level before is a mean over frames";
     EXPECT_EQ(recovery({1, 1, 0.5, 0.4, 0.3, 0.2, 0.1}), 0) << "lower than before is no harm";
     EXPECT_EQ(recovery({1, 1, 1, 1, 5, 1, 1}), 4) << "it was not over yet";
-    EXPECT_EQ(recovery({1, 1, 16, 8, 6, 4, 2}), never) << "it is still falling";
+    EXPECT_EQ(recovery({1, 1, 16, 8, 6, 4, 2}), unsettled) << "it is still falling";
     EXPECT_EQ(recovery({1, 1, std::nan(""), 1, 1, 1, 1}), 1);
     EXPECT_EQ(recoveryTime(steady(frames, {1, 1, 3, 1.4, 1, 1, 1}), 1.5).value, 1);
 }
@@ -88,7 +91,7 @@ TEST(Outcomes, FollowFromTheNumberAlone) {
     EXPECT_EQ(outcome(1.21), Outcome::strained);
     EXPECT_EQ(outcome(2), Outcome::strained);
     EXPECT_EQ(outcome(2.01), Outcome::fails);
-    EXPECT_EQ(outcome(never), Outcome::fails);
+    EXPECT_EQ(outcome(unsettled), Outcome::fails);
     EXPECT_EQ(outcome(std::nan("")), Outcome::fails) << "what is broken does not hold";
     EXPECT_TRUE(judge(rule, {1.5, 1.3, 1.9}).certain);
     EXPECT_FALSE(judge(rule, {1.5, 1.1, 1.9}).certain);

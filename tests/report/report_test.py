@@ -151,7 +151,7 @@ class ReportTest(unittest.TestCase):
         """If this fails, a technique that fails is coloured as one that holds."""
         d = error_charts.outcomes(load(self.folder))
         svg = d.svg()
-        for text in ("reuse, steps aside (box): spike of relmse 1.3 +- 0.1; is strained", "slow &amp; poor, steps aside (box): spike of relmse never; fails; its 95 % interval reaches another outcome"):
+        for text in ("reuse, steps aside (box): spike of relmse 1.3 +- 0.1; is strained", "slow &amp; poor, steps aside (box): spike of relmse unsettled; fails; its 95 % interval reaches another outcome"):
             self.assertIn(f"<title>{text}</title>", svg)
         self.assertEqual(svg.count("<title>"), 2)
         d.close()

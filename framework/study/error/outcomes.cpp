@@ -178,7 +178,7 @@ OutcomeMatrix judgeOutcomes(const Study& study, const std::vector<Cell>& cells) 
 std::string numberText(const FailureCase& rule, const StabilityNumber& number) {
     const bool hasInterval = !std::isnan(number.low) && !std::isnan(number.high);
     if (rule.quantity == StabilityQuantity::recovery) {
-        const auto frames = [](double value) { return std::isinf(value) ? std::string("never") : fmt::format("{:.0f}", value); };
+        const auto frames = [](double value) { return std::isinf(value) ? std::string("unsettled") : fmt::format("{:.0f}", value); };
         return frames(number.value) + (hasInterval && number.low != number.high ? fmt::format(" ({} to {})", frames(number.low), frames(number.high)) : "");
     }
     const double unit = rule.quantity == StabilityQuantity::energy ? 100 : 1;

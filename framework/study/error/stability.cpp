@@ -26,9 +26,9 @@ std::vector<double> meansOf(const Course& course, bool before) {
 }
 
 double recovery(const Course& errors, double factor) {
-    const double level = std::max(estimateMean(meansOf(errors, true)).mean, estimateMean(errors.values.back()).mean);
+    const double level = estimateMean(meansOf(errors, true)).mean;
     double since = infinity;
-    for (std::size_t i = errors.offsets.size() - 1; i-- > 0 && errors.offsets[i] >= 0;) {
+    for (std::size_t i = errors.offsets.size(); i-- > 0 && errors.offsets[i] >= 0;) {
         if (!(estimateMean(errors.values[i]).mean <= factor * level)) break;
         since = errors.offsets[i];
     }

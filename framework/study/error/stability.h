@@ -28,8 +28,8 @@ struct StabilityNumber {
 /// frame is chosen by the means over runs, so that noise raises it a little; the interval is that of the ratio of this frame's (delta method).
 StabilityNumber spikeHeight(const Course& errors);
 
-/// How long it suffers, in frames: the first measured frame, from the event on, from which on all mean errors stay within `factor` of the level before the
-/// event, or of that of the last measured frame if it is higher: what it settles at. Infinite where only the last frame is. It is as fine as
+/// How long it suffers, in frames: the first measured frame, from the event on, from which on all mean errors stay within `factor` of the mean error before
+/// the event, the level that spikeHeight() divides by. Infinite where the last measured frame doesn't: it hasn't settled, wherever it will. It is as fine as
 /// the frames measured. The interval spans what it is without any one of the runs. (1.1: studies/lod_restir, after Fig. 7 of the LoD paper.)
 StabilityNumber recoveryTime(const Course& errors, double factor = 1.1);
 
