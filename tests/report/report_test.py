@@ -155,6 +155,10 @@ class ReportTest(unittest.TestCase):
             self.assertIn(f"<title>{text}</title>", svg)
         self.assertEqual(svg.count("<title>"), 2)
         d.close()
+        self.assertEqual([error_charts.short(text) for text in ("1.32 +- 0.2", "-0.342 +- 0.57 %", "4 (4 to unsettled)", "unsettled", "0.0002", "nan")],
+                         ["1.3", "-0.34", "4", "∞", "0", "nan"])
+        case = {"name": "light", "quantity": "energy", "measure": "bias", "limits": [0.02, 0.05]}
+        self.assertEqual(error_charts.row_label(case), "light: energy (%)\nbias, 2 / 5")
 
     def test_outcomes(self):
         self.assertEqual([error_charts.outcome(m, 0.1, 1.0, 0.1) for m in (1.0, 1.2, 1.3, 2.5, 6.0)], [0, 0, 1, 2, 3])
