@@ -185,7 +185,7 @@ TEST_F(OutcomeFiles, WrongOnesAreTold) {
     expectSaid(R"({ "baseline": "grid", "cases": [] })", "several knobs of the baseline vary");
     expectSaid(R"({ "cases": [] })", "there are no cases");
     expectSaid(oneCase(R"("quantity": "height", "measure": "relmse")"), "spike");
-    expectSaid(oneCase(R"("quantity": "spike", "measure": "relmse.switched")"), "the study doesn't measure \"relmse.switched\"");
+    expectSaid(oneCase(R"("quantity": "spike", "measure": "relmse.switched")"), "the study has no measure \"relmse.switched\"");
     expectSaid(oneCase(R"("quantity": "popping", "measure": "relmse")"), "\"popping\" is made of step_flip, not of relmse");
     expectSaid(oneCase(R"("quantity": "energy", "measure": "relmse")"), "\"energy\" is made of bias, not of relmse");
     expectSaid(oneCase(R"("quantity": "spike", "measure": "relmse", "limit": 3)"), "limit");

@@ -155,7 +155,7 @@ TEST_F(StudyTest, ExpandsToEveryCombinationOnce) {
                          knobJson(run.knobs).dump());
     EXPECT_EQ(different.size(), runs.size());
     EXPECT_EQ(knobJson(runs[1].knobs).dump(), R"({"a.mode":"x","a.spp":2})") << "the last knob varies fastest";
-    EXPECT_EQ(knobText(runs[1].knobs, 2), "mode x, spp 2");
+    EXPECT_EQ(knobText(runs[1].knobs), "mode x, spp 2");
 
     std::vector<int> taken(runs.size(), 0);
     for (const char* text : {"1/3", "2/3", "3/3"})

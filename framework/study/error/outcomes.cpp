@@ -4,12 +4,15 @@
 #include <framework/scene/fields.h>
 #include <framework/study/error/outcomes.h>
 #include <framework/study/error/summary.h>
+#include <framework/study/named.h>
+#include <framework/study/run_list.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -26,7 +29,7 @@ public:
         fields.text("baseline", baseline);
         if (const Json* name = fields.find("baseline"))
             problems_.attempt([&] {
-                rules_.baseline = indexOf(study_.techniques, baseline, "technique", name->where());
+                rules_.baseline = indexNamed<&Technique::name>(study_.techniques, baseline, "technique", name->where());
                 if (study_.techniques[*rules_.baseline].vary.size() > 1)
                     throw Error(name->where(), "several knobs of the baseline vary", "one is enough to find its error at any rays");
             });
@@ -40,21 +43,13 @@ public:
     }
 
 private:
-    template <class T> static std::size_t indexOf(const std::vector<T>& all, const std::string& name, const char* what, const Where& where) {
-        std::vector<std::string> names;
-        for (const T& one : all) names.push_back(one.name);
-        const auto found = std::ranges::find(names, name);
-        if (found == names.end()) throw Error(where, fmt::format("the study has no {} \"{}\"", what, name), didYouMean(name, names));
-        return std::size_t(found - names.begin());
-    }
-
     void readCase(const Json& json) {
         Fields fields(json, "a case", problems_);
         FailureCase rule{.where = json.where()};
         fields.require("name"), fields.text("name", rule.name);
         std::string scene;
         fields.text("scene", scene);
-        if (const Json* name = fields.require("scene")) problems_.attempt([&] { rule.scene = indexOf(study_.scenes, scene, "scene", name->where()); });
+        if (const Json* name = fields.require("scene")) problems_.attempt([&] { rule.scene = indexNamed<&StudyScene::name>(study_.scenes, scene, "scene", name->where()); });
         std::size_t quantity = 0;
         if (fields.require("quantity")) fields.choice("quantity", quantity, quantityNames);
         rule.quantity = StabilityQuantity(quantity);
@@ -72,12 +67,8 @@ private:
     }
 
     void checkMeasure(const FailureCase& rule, const Json& name) const {
-        std::vector<std::string> names;
         const std::vector<Measure> measures = measuresOf(study_);
-        for (const Measure& measure : measures) names.push_back(measure.name());
-        const auto found = std::ranges::find(names, rule.measure);
-        if (found == names.end()) throw Error(name.where(), fmt::format("the study doesn't measure \"{}\"", rule.measure), didYouMean(rule.measure, names));
-        const std::string& metric = measures[std::size_t(found - names.begin())].metric;
+        const std::string& metric = measures[indexNamed<&Measure::name>(measures, rule.measure, "measure", name.where())].metric;
         const auto demand = [&](StabilityQuantity quantity, const char* of) {
             if (rule.quantity == quantity && metric != of)
                 throw Error(name.where(), fmt::format("\"{}\" is made of {}, not of {}", nameOf(quantity), of, metric));
@@ -120,9 +111,7 @@ std::optional<StabilityNumber> quantityOf(StabilityQuantity quantity, const Cour
 
 /// A technique with values of its knobs, but for what was solved for, which differs from scene to scene.
 std::string columnOf(const Study& study, const Cell& cell) {
-    const Technique& technique = study.techniques[cell.technique];
-    const std::string knobs = knobText(cell.knobs, technique.vary.size());
-    return technique.name + (knobs.empty() ? "" : ", " + knobs);
+    return labelOf(study, cell.technique, std::span(cell.knobs).first(study.techniques[cell.technique].vary.size()));
 }
 
 /// What a case is judged by, of each column; of columns that the case's measure was taken of.

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What a frame cost, without what is made once.
+#pragma once
+#include <framework/graph/runner.h>
+#include <framework/study/results.h>
+
+#include <vector>
+
+namespace lodestir {
+
+/// By pass: milliseconds, and rays by purpose.
+std::vector<PassCost> costsOf(const FrameReport& report);
+/// All rays of it.
+double raysOf(const FrameReport& report);
+
+}  // namespace lodestir
