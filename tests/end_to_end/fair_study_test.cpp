@@ -108,8 +108,9 @@ TEST_F(FairStudyTest, BudgetsAreMet) {
 // knob is nearer to the budget, or rows say that they took another value than was chosen.
 TEST_F(FairStudyTest, ATimeIsMetWithinAStepOfTheKnob) {
     // What 48 samples take here and now, so that most and least of the range are far from it.
-    ASSERT_EQ(lodestir({"run", pathTracing, "--variant", "no accumulation", "--scene", json["scenes"][0], "--set", "trace.spp=48", "--size", "32x18", "--frames", "3",
-                        "--out", (folder / "first").string()}).exitCode, 0);
+    const Output first = lodestir({"run", pathTracing, "--variant", "no accumulation", "--scene", json["scenes"][0], "--set", "trace.spp=48", "--size", "32x18",
+                                   "--frames", "3", "--out", (folder / "first").string()});
+    ASSERT_EQ(first.exitCode, 0) << first.err;
     const double budget = readJson(folder / "first/run.json")["frames"].back()["ms"];
     json["seeds"] = 2;
     json["techniques"]["solved"] = {{"graph", pathTracing}, {"variant", "no accumulation"}, {"solve", {{"trace.spp", {1, 4096}}}}};

@@ -31,7 +31,10 @@ wc -l < "$JOBS"
     Output submit(Arguments arguments) {
         arguments.insert(arguments.begin(), (sourceFolder / "scripts/slurm/submit").string());
         const std::string path = (folder / "bin").string() + ":" + std::getenv("PATH");
-        return runProcess(arguments, {{"PATH", path}, {"JOBS", (folder / "jobs").string()}, {"REPORTS", (folder / "out").string()}, {"LODESTIR", LODESTIR_BINARY}});
+        return runProcess(arguments, {{"PATH", path},
+                                      {"JOBS", (folder / "jobs").string()},
+                                      {"REPORTS", (folder / "out").string()},
+                                      {"LODESTIR", LODESTIR_BINARY}});
     }
 };
 

@@ -49,7 +49,8 @@ private:
         fields.require("name"), fields.text("name", rule.name);
         std::string scene;
         fields.text("scene", scene);
-        if (const Json* name = fields.require("scene")) problems_.attempt([&] { rule.scene = indexNamed<&StudyScene::name>(study_.scenes, scene, "scene", name->where()); });
+        if (const Json* name = fields.require("scene"))
+            problems_.attempt([&] { rule.scene = indexNamed<&StudyScene::name>(study_.scenes, scene, "scene", name->where()); });
         std::size_t quantity = 0;
         if (fields.require("quantity")) fields.choice("quantity", quantity, quantityNames);
         rule.quantity = StabilityQuantity(quantity);
