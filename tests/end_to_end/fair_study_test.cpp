@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace lodestir::test {
@@ -53,6 +54,12 @@ protected:
         double sum = 0;
         for (const OrderedJson& row : rows) sum += row["metrics"][name].get<double>() / double(rows.size());
         return sum;
+    }
+    /// Processes that share the work write rows in any order.
+    static std::set<std::uint32_t> seedsOf(const std::vector<OrderedJson>& rows) {
+        std::set<std::uint32_t> seeds;
+        for (const OrderedJson& row : rows) seeds.insert(row["seed"].get<std::uint32_t>());
+        return seeds;
     }
     static double raysOf(const OrderedJson& row) {
         double rays = 0;
@@ -168,8 +175,7 @@ TEST_F(FairStudyTest, PartsAreTakenAway) {
     const auto rows = study("parts");
     for (const char* part : {"temporal", "spatial", "initial.roulette", "temporal and spatial"}) {
         ASSERT_TRUE(rows.contains(std::string("ReSTIR PT without ") + part)) << part;
-        for (std::size_t i = 0; i < 4; ++i)
-            EXPECT_EQ(rows.at(std::string("ReSTIR PT without ") + part)[i]["seed"], rows.at("ReSTIR PT")[i]["seed"]) << "seed by seed";
+        EXPECT_EQ(seedsOf(rows.at(std::string("ReSTIR PT without ") + part)), seedsOf(rows.at("ReSTIR PT"))) << "seed by seed";
     }
     const auto has = [&](const char* technique, const char* pass) { return rows.at(technique).front()["passes"].contains(pass); };
     EXPECT_TRUE(has("ReSTIR PT", "spatial"));
