@@ -28,7 +28,7 @@ install(FILES ${PROJECT_BINARY_DIR}/docs/passes.md DESTINATION ${share}/docs)
 install(DIRECTORY scenes/ DESTINATION ${share}/scenes FILES_MATCHING PATTERN *.json PATTERN generate EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/scenes/ DESTINATION ${share}/scenes FILES_MATCHING PATTERN *.glb)
 install(PROGRAMS scripts/new_pass DESTINATION ${share}/scripts)
-install(DIRECTORY scripts/report DESTINATION ${share}/scripts PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY scripts/report scripts/slurm DESTINATION ${share}/scripts USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 
 # The same tree as build/api: exactly the headers that LODESTIR_ABI is a hash of (what a pass can include it is refused for when it changes), and
 # the families of passes.

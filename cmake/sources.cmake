@@ -3,7 +3,7 @@
 # by and what rows are summed up with. Results of studies are named by it, so it is made anew with every change of these files, and is the same at any commit and in any folder otherwise.
 if(CMAKE_SCRIPT_MODE_FILE)
     file(GLOB_RECURSE files RELATIVE ${root} ${root}/*.cpp ${root}/*.h)
-    list(FILTER files EXCLUDE REGEX "^app/|^main.cpp|/report/|^study/workers|^study/error/(comparison|decomposition|exponent|statistics|summary)")
+    list(FILTER files EXCLUDE REGEX "^app/|^main.cpp|/report/|^study/workers|^study/error/(comparison|decomposition|exponent|outcomes|stability|statistics|summary)")
     list(SORT files)
     foreach(file ${files})
         file(SHA256 ${root}/${file} hash)

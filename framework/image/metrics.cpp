@@ -14,6 +14,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace lodestir {
 namespace {
@@ -108,13 +109,23 @@ double similarityOfScales(const Pair& pair) {
     return msSsim(Luma(pair.test, pair.exposure), Luma(pair.reference, pair.exposure), pair.mask);
 }
 
+/// Which of the errors a trimmed mean is taken of; all where one is NaN, because a broken pixel is no outlier.
+std::vector<bool> trimmed(const std::vector<double>& errors) {
+    std::vector<bool> kept(errors.size(), true);
+    if (std::ranges::any_of(errors, [](double error) { return std::isnan(error); })) return kept;
+    std::vector<std::size_t> places(errors.size());
+    std::iota(places.begin(), places.end(), std::size_t(0));
+    const auto first = places.end() - static_cast<std::ptrdiff_t>(trimmedShare * static_cast<double>(errors.size()));
+    std::ranges::nth_element(places, first, {}, [&](std::size_t place) { return std::pair(errors[place], place); });
+    for (auto place = first; place != places.end(); ++place) kept[*place] = false;
+    return kept;
+}
 double trimmedMean(const std::vector<double>& errors) {
-    if (std::ranges::any_of(errors, [](double error) { return std::isnan(error); })) return std::nan("");  // a broken pixel is no outlier
-    std::vector<double> kept = errors;
-    const auto dropped = static_cast<std::ptrdiff_t>(trimmedShare * static_cast<double>(kept.size()));
-    std::ranges::nth_element(kept, kept.end() - dropped - 1);
-    kept.erase(kept.end() - dropped, kept.end());
-    return mean(kept);
+    const std::vector<bool> kept = trimmed(errors);
+    std::vector<double> rest;
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        if (kept[i]) rest.push_back(errors[i]);
+    return mean(rest);
 }
 
 double rootMean(const std::vector<double>& errors) { return std::sqrt(mean(errors)); }
@@ -257,6 +268,19 @@ std::map<std::string, double> evaluateAll(const std::vector<std::string>& names,
 
 double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {
     return evaluateAll({std::string(name)}, test, reference, options).begin()->second;
+}
+
+std::vector<bool> trimmedMask(const ImageData& test, const ImageData& reference, const MetricOptions& options) {
+    const Pair pair = pairOf(test, reference, options);
+    const std::vector<double> all = relativeSquared(pair);
+    std::vector<double> errors;
+    for (std::size_t pixel = 0; pixel < all.size(); ++pixel)
+        if (pair.counts(pixel)) errors.push_back(all[pixel]);
+    const std::vector<bool> kept = trimmed(errors);
+    std::vector<bool> mask(all.size());
+    for (std::size_t pixel = 0, place = 0; pixel < all.size(); ++pixel)
+        if (pair.counts(pixel)) mask[pixel] = kept[place++];
+    return mask;
 }
 
 ImageData errorMap(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options) {

@@ -43,6 +43,9 @@ LODESTIR_API std::string metricAbout(std::string_view name);
 /// Throws Error when there is no such metric, the images differ in size or channels, are empty, or the mask has another size or leaves none.
 LODESTIR_API double evaluate(std::string_view name, const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
 
+/// The pixels that "relmse_trimmed" is the mean of "relmse" over: those that count but for the 0.1 % (rounded down) with the largest errors.
+LODESTIR_API std::vector<bool> trimmedMask(const ImageData& test, const ImageData& reference, const MetricOptions& options = {});
+
 /// The same of several metrics by name; what they share is computed once.
 LODESTIR_API std::map<std::string, double> evaluateAll(const std::vector<std::string>& names, const ImageData& test,
                                                        const ImageData& reference, const MetricOptions& options = {});

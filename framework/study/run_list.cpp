@@ -49,6 +49,18 @@ nlohmann::ordered_json knobJson(const std::vector<Setting>& knobs) {
     return json;
 }
 
+std::string knobText(std::span<const Setting> knobs) {
+    std::string text;
+    for (const Setting& knob : knobs)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", knob.name.substr(knob.name.find('.') + 1),
+                            knob.value.isString() ? knob.value.asString() : knob.value.dump(-1));
+    return text;
+}
+
+std::string labelOf(const Study& study, std::size_t technique, std::span<const Setting> knobs) {
+    return study.techniques[technique].name + (knobs.empty() ? "" : ", " + knobText(knobs));
+}
+
 std::string configurationKey(std::size_t scene, std::size_t technique, const std::vector<Setting>& knobs) {
     return fmt::format("{} {} {}", scene, technique, knobJson(knobs).dump());
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,14 @@ std::vector<StudyRun> expandRuns(const Study& study);
 
 /// {"trace.spp": 4}
 nlohmann::ordered_json knobJson(const std::vector<Setting>& knobs);
+
+/// "spp 4, mode fast": knobs without their passes; empty where there are none.
+std::string knobText(std::span<const Setting> knobs);
+
+/// "path tracing, spp 4"
+std::string labelOf(const Study& study, std::size_t technique, std::span<const Setting> knobs);
+/// Of a cell of a summary.
+template <class Cell> std::string labelOf(const Study& study, const Cell& cell) { return labelOf(study, cell.technique, cell.knobs); }
 
 /// What runs have in common that differ in their seed only.
 std::string configurationKey(std::size_t scene, std::size_t technique, const std::vector<Setting>& knobs);

@@ -5,6 +5,7 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/level_policy.h>
 #include <framework/study/content.h>
+#include <framework/study/frame_cost.h>
 #include <framework/study/measured_port.h>
 #include <framework/study/pixel_filter.h>
 #include <framework/study/stage.h>
@@ -260,11 +261,7 @@ std::map<std::string, double> Stage::countsOf(const Runner& runner, const Staged
         std::memcpy(&number, bytes.data(), std::min(bytes.size(), sizeof number));
         counts[study_.counters[i].name] = double(number);
     }
-    if (!study_.countSteps) return counts;
-    double steps = 0;
-    for (const PassReport& pass : report.passes)
-        if (!pass.setup) steps += double(pass.rays[RAYS_STEPS]);
-    counts[std::string(stepsName)] = steps / study_.scenes[scene].pixels();
+    if (study_.countSteps) counts[std::string(stepsName)] = stepsOf(report) / study_.scenes[scene].pixels();
     return counts;
 }
 

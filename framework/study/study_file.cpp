@@ -3,6 +3,7 @@
 #include <framework/core/is_file.h>
 #include <framework/image/temporal.h>
 #include <framework/scene/fields.h>
+#include <framework/study/named.h>
 #include <framework/study/report/report.h>
 #include <framework/study/study_file.h>
 
@@ -293,17 +294,12 @@ private:
         });
     }
 
-    std::size_t techniqueNamed(const Json& value, const char* what) const {
-        const std::string& name = value.asString(what);
-        const auto found = std::ranges::find(study_.techniques, name, &Technique::name);
-        if (found != study_.techniques.end()) return std::size_t(found - study_.techniques.begin());
-        std::vector<std::string> known;
-        for (const Technique& technique : study_.techniques) known.push_back(technique.name);
-        throw Error(value.where(), fmt::format("no technique \"{}\"", name), didYouMean(name, known));
+    std::size_t techniqueNamed(const std::string& name, const Where& where) const {
+        return indexNamed<&Technique::name>(study_.techniques, name, "technique", where);
     }
     void readBaseline(Fields& fields) {
         problems_.attempt([&] {
-            if (const Json* baseline = fields.find("baseline")) study_.baseline = techniqueNamed(*baseline, "\"baseline\"");
+            if (const Json* baseline = fields.find("baseline")) study_.baseline = techniqueNamed(baseline->asString("\"baseline\""), baseline->where());
         });
     }
 
@@ -331,7 +327,7 @@ private:
         if (std::ranges::none_of(study_.techniques, [](const Technique& t) { return t.solve.has_value(); }))
             throw Error(study_.equal->where, "no technique has a knob for the budget", "add \"solve\": { \"pass.parameter\": [least, most] } to one");
         if (study_.equal->technique.empty()) return;
-        const Technique& named = study_.techniques[techniqueNamed(Json(study_.equal->technique), "the budget")];
+        const Technique& named = study_.techniques[techniqueNamed(study_.equal->technique, study_.equal->where)];
         if (named.solve || !named.vary.empty())
             throw Error(study_.equal->where, fmt::format("\"{}\" has no cost of its own to give others", named.name),
                         "name a technique without \"vary\" and \"solve\"");

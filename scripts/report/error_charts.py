@@ -317,13 +317,18 @@ JUDGED = {"holds": ("holds", "#cfe3f2"), "strained": ("is strained", "#f4cfa4"),
 
 
 def short(text):
-    """The number of a text such as "1.32 +- 0.2" or "-0.342 +- 0.57 %", to two digits."""
+    """The number of a text such as "1.32 +- 0.2" or "-0.342 +- 0.57 %", to two digits; what is unsettled has none."""
     word = text.split(" ")[0]
-    try:
-        value = float(word)
-    except ValueError:
-        return word
-    return (f"{value:.2g}" if abs(value) >= 0.001 else "0") + (" %" if "%" in text else "")
+    if word == "unsettled":
+        return "∞"
+    value = float(word)
+    return "0" if abs(value) < 0.001 else f"{value:.2g}"
+
+
+def row_label(case):
+    unit, of_unit = (" (%)", 100) if case["quantity"] == "energy" else ("", 1)
+    low, high = (of_unit * limit for limit in case["limits"])
+    return f"{case['name']}: {case['quantity']}{unit}\n{case['measure']}, {low:g} / {high:g}"
 
 
 def outcomes(r):
@@ -342,17 +347,18 @@ def outcomes(r):
             (box,) = axes.bar(column, 1, width=1, bottom=row - 0.5, color=color, edgecolor="white", linewidth=1)
             doubt = "" if cell["certain"] else "; its 95 % interval reaches another outcome"
             d.hint(box, f"{columns[column]}, {case['name']} ({case['scene']}): {case['quantity']} of {case['measure']} {cell['text']}; {word}{doubt}")
-            axes.text(column, row, short(cell["text"]) + ("" if cell["certain"] else "?"), ha="center", va="center", fontsize=6.5, color=INK)
+            size = 6.5 if len(columns) <= 5 else 5.5
+            axes.text(column, row, short(cell["text"]) + ("" if cell["certain"] else "?"), ha="center", va="center", fontsize=size, color=INK)
     axes.set_xticks(range(len(columns)), columns, rotation=0 if len(columns) <= 3 else 35, ha="center" if len(columns) <= 3 else "left")
     axes.xaxis.tick_top()
-    axes.set_yticks(range(len(cases)), [f"{case['name']}\n{case['quantity']}, {case['limits'][0]:g} / {case['limits'][1]:g}" for case in cases], fontsize=6)
+    axes.set_yticks(range(len(cases)), [row_label(case) for case in cases], fontsize=5.5)
     axes.set(xlim=(-0.5, len(columns) - 0.5), ylim=(len(cases) - 0.5, -0.5))
     axes.grid(False)
     axes.tick_params(length=0)
     for side in ("left", "bottom"):
         axes.spines[side].set_visible(False)
     d.legend([Patch(facecolor=color) for _, color in JUDGED.values()], [word for word, _ in JUDGED.values()])
-    d.note = "A number up to the first limit of its case holds, up to the second is strained, above fails. ?: the 95 % interval reaches another outcome."
+    d.note = "A number up to the first limit of its case holds, up to the second is strained, above fails. ?: the 95 % interval reaches another outcome. ∞: not settled by the last measured frame."
     return d
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: MIT
 """index.html of a folder of several results."""
 import collections
-import json
 from types import SimpleNamespace
 
 from .page import render
+from .results import read_summary
 from .words import listed
 
 
@@ -21,7 +21,7 @@ def outcome(summary):
 def page_of(folder, studies):
     found = []
     for study in studies:
-        s = json.loads((study / "summary.json").read_text())
+        s = read_summary(study / "summary.json")
         scenes = listed(dict.fromkeys(scene["file"] for scene in s["scenes"]))
         found.append(SimpleNamespace(link=f"{study.name}/report.html", name=study.name, about=s["about"], outcome=outcome(s), scenes=scenes,
                                      techniques=len(s["techniques"]), seeds=s["seeds"], device=listed(s["devices"]), date=s["date"][:10]))

@@ -32,7 +32,7 @@ def error_vs_count(r, scene, metric, count):
 def geometry_of(r, scene, frame, metric):
     """{configuration: squared bias and half of its interval}"""
     return {configuration_of(parts): [numpy.nan if value is None else value for value in (parts["squaredBias"]["mean"], parts["squaredBias"]["halfWidth"])]
-            for parts in r.summary.get("decompositions", [])
+            for parts in r.summary["decompositions"]
             if (parts["scene"], parts["frame"], parts["metric"]) == (r.scenes[scene], r.frames[frame], metric["name"])}
 
 

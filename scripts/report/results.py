@@ -13,6 +13,40 @@ class Missing(Exception):
     """There is nothing to report on, or nothing that can be read."""
 
 
+class Members(dict):
+    """An object of a JSON file, of which a missing member is told in one sentence, wherever it is asked for."""
+
+    def __init__(self, path, members):
+        super().__init__(members)
+        self.path = path
+
+    def __missing__(self, name):
+        raise Missing(f"{self.path} lacks \"{name}\" and was written by another version; draw it with the scripts/report of that one, or have "
+                      "lodestir study STUDY --out OUT --resume write it again")
+
+
+def parse(path, text):
+    """JSON that a study wrote into a file."""
+    try:
+        return json.loads(text, object_hook=lambda members: Members(path, members))
+    except ValueError as error:
+        raise Missing(f"{path} is no JSON: {error}") from None
+
+
+# What summaries of errors didn't always have, and what stands for it.
+LATER = {"counts": [], "comparisons": [], "exponents": [], "decompositions": [], "sequences": [], "outcomes": None}
+
+
+def read_summary(path):
+    summary = parse(path, path.read_text())
+    if not isinstance(summary, dict) or summary.get("format") != 1:
+        raise Missing(f"{path} has a format that this report does not know; draw it with the scripts/report of the Lodestir that wrote it")
+    if summary["kind"] == "error":
+        for name, default in {**LATER, "baseline": summary["techniques"][0]["name"]}.items():
+            summary.setdefault(name, default)
+    return summary
+
+
 @dataclass(frozen=True)
 class Configuration:
     """A technique with a value of each of its knobs."""
@@ -55,12 +89,7 @@ class Results:
         path = self.folder / "summary.json"
         if not path.exists():
             raise Missing(f"{path} is not there; lodestir study STUDY --out {folder} --resume writes it")
-        try:
-            self.summary = json.loads(path.read_text())
-        except ValueError as error:
-            raise Missing(f"{path} is no JSON: {error}") from None
-        if self.summary.get("format") != 1:
-            raise Missing(f"{path} has a format that this report does not know; draw it with the scripts/report of the Lodestir that wrote it")
+        self.summary = read_summary(path)
         self.kind = self.summary["kind"]
         self.name = self.summary["study"]
         self.scenes = [scene["name"] for scene in self.summary["scenes"]]
@@ -124,7 +153,7 @@ class Results:
         for path in sorted(self.folder.glob("results*.jsonl")):
             for line in path.read_text().splitlines(keepends=True):
                 if line.endswith("\n"):  # else it was cut
-                    row = json.loads(line)
+                    row = parse(path, line)
                     if row["run"] in runs:
                         found.append(row)
         return found
@@ -166,7 +195,7 @@ class Results:
         self.rays, self.rays_half_width = self._empty(), self._empty()
         self.pass_ms, self.pass_rays = self._empty(len(self.passes)), self._empty(len(self.passes), len(self.purposes))
         self.seeds = self._empty(seeds)
-        self.counts = {name: self._empty() for name in self.summary.get("counts", [])}
+        self.counts = {name: self._empty() for name in self.summary["counts"]}
         self.error, self.half_width = {name: self._empty() for name in names}, {name: self._empty() for name in names}
         self.values = {name: self._empty(seeds) for name in names}
         self.comparison = {name: self._empty(3) for name in [*names, "ms", "rays"]}

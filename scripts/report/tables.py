@@ -125,11 +125,11 @@ def convergences(r, s):
     for c, f, found in ensemble_cells(r, s):
         if "convergence" not in found:
             continue
-        k = {name: real(value) for name, value in found["convergence"].items() if name != "points"}
-        deviation = 2 * k["biasDeviation"]
-        bias = cell(number(k["bias"], 2), k["bias"], number(deviation, 2) if numpy.isfinite(deviation) else "")
-        shares = [cell(f"{100 * k[name]:.2f} %", k[name]) for name in ("difference", "differenceOfNoise")]
-        rows.append([cell(ensemble_label(r, c, f)), plain(k["noise"]), bias, *shares])
+        known = lambda name: real(found["convergence"][name])  # noqa: B023,E731
+        deviation = 2 * known("biasDeviation")
+        bias = cell(number(known("bias"), 2), known("bias"), number(deviation, 2) if numpy.isfinite(deviation) else "")
+        shares = [cell(f"{100 * known(name):.2f} %", known(name)) for name in ("difference", "differenceOfNoise")]
+        rows.append([cell(ensemble_label(r, c, f)), plain(known("noise")), bias, *shares])
     note = ("Of luminance, by pixel; the reference's noise is taken out, so that what has no bias may fall below 0. Noise of a run and bias are RelMSE: by the "
             "spread of the runs, and of the mean over endlessly many (± two standard deviations, by leaving out chunks of runs). One run's error is their sum, "
             "that of the mean over n runs noise / n + bias. Mean difference: |mean over all runs − reference| / reference; beside it what noise alone makes of it.")

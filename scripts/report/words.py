@@ -37,6 +37,8 @@ def reading_error(r):
     sentences.append("References are rendered in two independent halves A and B" + (
         f"; {listed(clean)} {be(clean)} the mean of (x − A)(x − B), which the noise of the reference does not raise (and which may fall below 0 where the "
         "error is far smaller than that noise)." if clean else "."))
+    if "relmse_trimmed" in clean:
+        sentences.append("Which pixels relmse_trimmed leaves out follows |x − (A + B) / 2|; that takes out a little too much, of Gaussian noise 0.5 % of it.")
     sentences.append("All seeds are judged by one reference: intervals tell the spread of the technique" +
                      (", those of bias the reference's noise as well." if "bias" in noisy else " and not of the reference."))
     sentences.append(pairing(r))

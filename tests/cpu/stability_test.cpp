@@ -13,7 +13,7 @@
 namespace lodestir {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double unsettled = std::numeric_limits<double>::infinity();
 
 /// One run more or less shows every frame the same.
 Course steady(const std::vector<int>& offsets, const std::vector<double>& errors, int runs = 3) {
@@ -42,10 +42,13 @@ TEST(Stability, RecoveryIsWhenTheErrorIsBackForGood) {
     EXPECT_EQ(recovery({1, 1, 1.05, 1, 1, 1, 1}), 0);
     EXPECT_EQ(recovery({1, 1, 3, 2, 1.09, 1, 1}), 2);
     EXPECT_EQ(recovery({1, 1, 3, 2, 1.11, 1, 1}), 4);
-    EXPECT_EQ(recovery({1, 1, 5, 4, 3.2, 3, 3}), 2) << "it settles higher than it was";
+    EXPECT_EQ(recovery({1, 1, 5, 4, 3.2, 3, 3}), unsettled) << "it stays higher than it was, and may be falling yet";
+    EXPECT_EQ(recovery({1, 1, 1.8, 1.5, 1.4, 1.25, 1.15}), unsettled) << "it falls, but the last frame is no place to call settled";
+    EXPECT_EQ(recovery({1, 1, 3, 2, 2, 2, 1.09}), 8) << "back in the last frame";
+    EXPECT_EQ(recovery({0.5, 1.5, 3, 2, 1.09, 1, 1}), 2) << "the level before is a mean over frames";
     EXPECT_EQ(recovery({1, 1, 0.5, 0.4, 0.3, 0.2, 0.1}), 0) << "lower than before is no harm";
     EXPECT_EQ(recovery({1, 1, 1, 1, 5, 1, 1}), 4) << "it was not over yet";
-    EXPECT_EQ(recovery({1, 1, 16, 8, 6, 4, 2}), never) << "it is still falling";
+    EXPECT_EQ(recovery({1, 1, 16, 8, 6, 4, 2}), unsettled) << "it is still falling";
     EXPECT_EQ(recovery({1, 1, std::nan(""), 1, 1, 1, 1}), 1);
     EXPECT_EQ(recoveryTime(steady(frames, {1, 1, 3, 1.4, 1, 1, 1}), 1.5).value, 1);
 }
@@ -75,10 +78,35 @@ TEST(Stability, EnergyAndBaselineLookFromTheEventOn) {
     EXPECT_DOUBLE_EQ(energyError(shared).value, -0.03);
     EXPECT_NEAR(energyError(shared).high - energyError(shared).value, 1.96 * 0.025, 2e-4);
     const Course errors{.offsets = {-1, 0, 1}, .values = {{9, 9}, {2, 4}, {4, 6}}}, baseline{.offsets = {-1, 0, 1}, .values = {{1, 1}, {1, 2}, {1, 2}}};
-    const StabilityNumber ratio = errorAgainst(errors, baseline);
+    const StabilityNumber ratio = errorAgainst(errors, {baseline}).value();
     EXPECT_NEAR(ratio.value, 4 / 1.5, 1e-12);
     const double t = 12.7062047, a = t * 1 / 4, b = t * 0.5 / 1.5;
     EXPECT_NEAR(ratio.high - ratio.value, ratio.value * std::hypot(a, b), 1e-5) << "relative half-widths add up as of independent runs";
+}
+
+// If this fails, a technique is called better than a baseline that was given other rays than it.
+TEST(Stability, ABaselineOfSeveralCostsIsTakenAtEqualRays) {
+    const auto course = [](std::vector<double> rays, double error, double spread = 0) {
+        Course made{.offsets = {-1, 0, 1}, .values = {}, .deviations = {}, .rays = std::move(rays)};
+        made.values = {{99, 99}, {error - spread, error + spread}, {error - spread, error + spread}};
+        return made;
+    };
+    // Path tracing: 12 / rays. The frame before the event, of other rays and errors, has no part in it.
+    const std::vector<Course> tracing{course({70, 2, 2}, 6), course({70, 6, 10}, 1.5), course({70, 4, 4}, 3)};
+    const auto against = [&](double before, double after, double error) { return errorAgainst(course({1, before, after}, error), tracing); };
+    EXPECT_NEAR(against(5, 7, 1).value().value, 6 / 12.0, 1e-12);
+    EXPECT_NEAR(against(3, 3, 8).value().value, 8 * 3 / 12.0, 1e-12);
+    EXPECT_NEAR(against(2, 2, 6).value().value, 1, 1e-12) << "the least rays of the baseline";
+    EXPECT_NEAR(against(8, 8, 1.5).value().value, 1, 1e-12) << "its most";
+    EXPECT_FALSE(against(1.9, 1.9, 1)) << "nothing is known of a baseline of fewer rays";
+    EXPECT_FALSE(against(8.1, 8.1, 1));
+    EXPECT_TRUE(errorAgainst(course({1, 20, 20}, 1), {tracing[0]})) << "one alone is taken at the rays it has";
+
+    const std::vector<Course> noisy{course({1, 2, 2}, 6, 0.6), course({1, 8, 8}, 1.5, 0.3)};
+    const StabilityNumber ratio = errorAgainst(course({1, 4, 4}, 3, 0.15), noisy).value();
+    const double t = 12.7062047;  // half-widths of one degree of freedom: t * spread
+    EXPECT_NEAR(ratio.value, 1, 1e-12);
+    EXPECT_NEAR(ratio.high - ratio.value, t * std::hypot(0.05, 0.5 * 0.1, 0.5 * 0.2), 1e-5) << "half way in logarithms, of either half";
 }
 
 TEST(Outcomes, FollowFromTheNumberAlone) {
@@ -88,7 +116,7 @@ TEST(Outcomes, FollowFromTheNumberAlone) {
     EXPECT_EQ(outcome(1.21), Outcome::strained);
     EXPECT_EQ(outcome(2), Outcome::strained);
     EXPECT_EQ(outcome(2.01), Outcome::fails);
-    EXPECT_EQ(outcome(never), Outcome::fails);
+    EXPECT_EQ(outcome(unsettled), Outcome::fails);
     EXPECT_EQ(outcome(std::nan("")), Outcome::fails) << "what is broken does not hold";
     EXPECT_TRUE(judge(rule, {1.5, 1.3, 1.9}).certain);
     EXPECT_FALSE(judge(rule, {1.5, 1.1, 1.9}).certain);
@@ -115,7 +143,8 @@ protected:
         writeFile(folder / "study.json", R"({ "format": 1, "scenes": ["box.json", "hall.json"], "seeds": 3, "frames": { "warmup": 4, "measure": )" + measure +
                                              R"( }, "reference": { "graph": "graph.json", "spp": 64 },
             "techniques": { "plain": { "graph": "graph.json" }, "other": { "graph": "graph.json" },
-                            "many": { "graph": "graph.json", "vary": { "a.spp": [1, 2] } } },
+                            "many": { "graph": "graph.json", "vary": { "a.spp": [1, 2] } },
+                            "grid": { "graph": "graph.json", "vary": { "a.spp": [1, 2], "a.depth": [1, 2] } } },
             "metrics": ["relmse", "bias", "step_flip"], "outcomes": )" +
                                              outcomes + " }");
         return loadStudy(folder / "study.json");
@@ -153,10 +182,10 @@ TEST_F(OutcomeFiles, WrongOnesAreTold) {
     };
     EXPECT_EQ(complaint(oneCase(R"("quantity": "spike", "measure": "relmse")")), "");
     expectSaid(R"({ "baseline": "plane", "cases": [] })", "the study has no technique \"plane\"");
-    expectSaid(R"({ "baseline": "many", "cases": [] })", "the baseline's knobs vary");
+    expectSaid(R"({ "baseline": "grid", "cases": [] })", "several knobs of the baseline vary");
     expectSaid(R"({ "cases": [] })", "there are no cases");
     expectSaid(oneCase(R"("quantity": "height", "measure": "relmse")"), "spike");
-    expectSaid(oneCase(R"("quantity": "spike", "measure": "relmse.switched")"), "the study doesn't measure \"relmse.switched\"");
+    expectSaid(oneCase(R"("quantity": "spike", "measure": "relmse.switched")"), "the study has no measure \"relmse.switched\"");
     expectSaid(oneCase(R"("quantity": "popping", "measure": "relmse")"), "\"popping\" is made of step_flip, not of relmse");
     expectSaid(oneCase(R"("quantity": "energy", "measure": "relmse")"), "\"energy\" is made of bias, not of relmse");
     expectSaid(oneCase(R"("quantity": "spike", "measure": "relmse", "limit": 3)"), "limit");
@@ -196,6 +225,34 @@ TEST_F(OutcomeFiles, MakeAMatrixOfWhatWasMeasured) {
     const std::string text = outcomesText(study, matrix);
     EXPECT_NE(text.find("strained 1.5 +- 0"), text.npos) << text;
     EXPECT_NE(text.find("holds 0.25 +- 0"), text.npos) << text;
+
+    // A baseline whose knob varies is several columns, and is held against none; others are at its errors of as many rays.
+    const Study curve = load(R"({ "baseline": "many", "cases": [
+        { "name": "noise", "scene": "box", "quantity": "baseline", "measure": "relmse", "limits": [0.5, 1] } ] })");
+    std::vector<Cell> costs;
+    const auto addCost = [&](std::size_t technique, int spp, double error, double rays) {
+        for (const int offset : curve.measure) {
+            Cell& cell = costs.emplace_back(Cell{.technique = technique, .offset = offset, .seeds = 2, .rays = {.mean = rays * curve.scenes[0].pixels()}});
+            if (spp > 0) cell.knobs = {{"a.spp", Json(spp)}};
+            cell.values["relmse"] = {error, error};
+        }
+    };
+    addCost(0, 0, 1, 4), addCost(1, 0, 1, 9), addCost(2, 1, 4, 2), addCost(2, 2, 1, 8);
+    const OutcomeMatrix equal = judgeOutcomes(curve, costs);
+    EXPECT_EQ(equal.columns, (std::vector<std::string>{"plain", "other", "many, spp 1", "many, spp 2"}));
+    ASSERT_TRUE(equal.rows[0][0]);
+    EXPECT_NEAR(equal.rows[0][0]->number.value, 0.5, 1e-12) << "the baseline's error of 4 rays is 2";
+    for (const std::size_t absent : {1u, 2u, 3u}) EXPECT_FALSE(equal.rows[0][absent]) << equal.columns[absent];
+    for (Cell& cell : costs)
+        if (cell.technique == 2 && cell.knobs[0].value.dump(-1) == "2") cell.values.clear();
+    EXPECT_FALSE(judgeOutcomes(curve, costs).rows[0][0]) << "half of the baseline is still to be run";
+
+    // What is solved for differs by scene, and is one technique.
+    Study solved = study;
+    solved.techniques[1].solve = SolvedKnob{.name = "a.spp", .low = 1, .high = 64};
+    for (Cell& cell : cells)
+        if (cell.technique == 1) cell.knobs = {{"a.spp", Json(cell.scene == 0 ? 2 : 3)}};
+    EXPECT_EQ(judgeOutcomes(solved, cells).columns, (std::vector<std::string>{"plain", "other"}));
 
     // What is still to be run is no outcome.
     cells.resize(study.measure.size());

@@ -201,7 +201,7 @@ TEST_F(FairStudy, TellsWhatIsWrong) {
     EXPECT_EQ(complaint(R"("equal": { "rays": "solved" },)", solved).substr(0, 48), "\"solved\" has no cost of its own to give others; ");
     EXPECT_EQ(complaint(R"("equal": { "rays": 9 },)", R"("s": { "graph": "graph.json", "set": { "a.spp": 1 }, "solve": { "a.spp": [1, 64] } })").substr(0, 44),
               "\"a.spp\" is set or varied, and solved for; re");
-    EXPECT_EQ(complaint(R"("baseline": "plian",)", plain), "no technique \"plian\"; did you mean \"plain\"?");
+    EXPECT_EQ(complaint(R"("baseline": "plian",)", plain), "the study has no technique \"plian\"; did you mean \"plain\"?");
     EXPECT_EQ(complaint(R"("masks": { "finest": "hits.depth" },)", plain).substr(0, 33), "a mask can't be named \"finest\"; i");
 }
 

@@ -86,7 +86,7 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
          {"lib/liblodestir.so", "lib/lodestir/passes/basic/path_tracer/libpath_tracer.so", "lib/lodestir/passes/basic/path_tracer/path_tracer.comp",
           "share/lodestir/shaders/trace/trace.glsl", "share/lodestir/graphs/restir_pt.json", "share/lodestir/scenes/rock.glb",
           "share/lodestir/studies/lod_restir/fig7.json", "share/lodestir/scripts/report/__main__.py", "share/lodestir/scripts/report/templates/report.html",
-          "share/lodestir/scripts/report/viewer.js", "share/lodestir/docs/files.md", "share/lodestir/docs/passes.md",
+          "share/lodestir/scripts/report/viewer.js", "share/lodestir/scripts/slurm/job", "share/lodestir/docs/files.md", "share/lodestir/docs/passes.md",
           "include/lodestir/framework/pass/pass.h", "include/lodestir/passes/restir/reservoir.h"})
         EXPECT_TRUE(std::filesystem::exists(prefix / file)) << file;
 
@@ -109,6 +109,16 @@ TEST_F(Install, MovesAndTakesPassesFromOutside) {
     EXPECT_EQ(study.exitCode, 0) << study.err;
     EXPECT_TRUE(std::filesystem::exists(folder / "study/summary.json"));
     EXPECT_TRUE(std::filesystem::exists(folder / "study/report.html") || study.err.find("install python3") != std::string::npos) << study.err;
+
+    // The installed scripts for clusters hand jobs the installed program.
+    writeFile(folder / "bin/sbatch", "#!/bin/sh\necho \"$@\" >&2\necho 7\n");
+    std::filesystem::permissions(folder / "bin/sbatch", std::filesystem::perms::owner_all);
+    const Path slurm = prefix / "share/lodestir/scripts/slurm";
+    const Output submitted = runProcess({(slurm / "submit").string(), (folder / "study.json").string(), (folder / "cluster").string(), "2"},
+                                        {{"PATH", (folder / "bin").string() + ":" + std::getenv("PATH")}});
+    EXPECT_EQ(submitted.exitCode, 0) << submitted.err;
+    EXPECT_NE(submitted.err.find((slurm / "job").string() + " " + program + " "), std::string::npos) << submitted.err;
+    EXPECT_TRUE((std::filesystem::status(slurm / "job").permissions() & std::filesystem::perms::owner_exec) != std::filesystem::perms::none);
 
     // A pass outside of the tree, from the installed template.
     const Path mine = folder / "mine";

@@ -98,6 +98,42 @@ TEST_F(Images, OneOfTwoInstances) {
     sumOf(frames.image("temporal.landed"));
 }
 
+// What is shown is counted: triangles over all instances, the bytes of a level once however many show it.
+TEST_F(Images, CountsWhatIsShown) {
+    const std::vector<SheetLevel> levels{{.cells = 20, .place = bowl}, {.cells = 6, .place = bowl}};
+    writeLevels(folder.path, "bowl", levels);
+    writeLevels(folder.path, "lamp", levels, {.emission = {5, 4, 3}});
+    const auto at = [](const char* model, const char* name, double x) {
+        return OrderedJson{{"model", model}, {"name", name}, {"translation", {x, 0, 0}}, {"scale", 0.5}};
+    };
+    const Path scene = write("counted", {"bowl", "lamp"}, OrderedJson::array({OrderedJson{{"frame", 0}, {"level", 1}, {"instance", "left"}}}),
+                             {{"instances", OrderedJson::array({at("bowl", "left", -1), at("bowl", "right", 1), at("lamp", "lamp", 0)})}});
+    Frames frames(scene, {64, 36}, {{"lod", {{"type", "lod_select"}}}, {"hits", hitsNode()}}, {"hits.hits", "lod.triangles", "lod.bytes"});
+    const auto counted = [&](const char* mode, int level = 0) {
+        frames.set("lod.mode", Json(mode));
+        frames.set("lod.level", Json(level));
+        frames.run();
+        const auto number = [&](const char* port) {
+            const std::vector<std::uint32_t> words = frames.records<std::uint32_t>(port);
+            return words.at(0) + (std::uint64_t(words.at(1)) << 32);
+        };
+        return std::pair(number("lod.triangles"), number("lod.bytes"));
+    };
+    constexpr std::uint64_t fine = 20 * 20 * 2, coarse = 6 * 6 * 2;  // a lamp stays at its finest
+    const auto [allFine, fineBytes] = counted("finest");
+    EXPECT_EQ(allFine, 3 * fine);
+    const auto [allCoarse, coarseBytes] = counted("fixed", 7);
+    EXPECT_EQ(allCoarse, 2 * coarse + fine);
+    const auto [one, bothBytes] = counted("schedule");
+    EXPECT_EQ(one, coarse + 2 * fine);
+    // A lamp of the same 800 triangles takes what a bowl takes; 84 bytes a triangle and 48 a vertex, of which there are at least half as many, and nodes.
+    const std::uint64_t bowl = fineBytes / 2;
+    EXPECT_EQ(bothBytes, coarseBytes + bowl);
+    EXPECT_GT(bowl, fine * (68 + 24));
+    EXPECT_LT(bowl, fine * (68 + 48 + 64));
+    EXPECT_LT(coarseBytes, bowl + bowl / 5);
+}
+
 // A mesh that emits stays at its finest whatever the schedule says, because lists of lights are of its triangles; one that doesn't switches.
 TEST_F(Images, EmitterStaysAtItsFinest) {
     const std::vector<SheetLevel> levels{{.cells = 8, .place = bowl}, {.cells = 4, .place = bowl}};

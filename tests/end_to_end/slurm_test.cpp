@@ -23,7 +23,7 @@ echo "$*" >> "$JOBS"
 array=
 while [[ ${1:-} == --* ]]; do [[ $1 != --array=* ]] || array=${1#--array=}; shift; done
 if [ -z "$array" ]; then "$@" >&2
-else for ((i = ${array%-*}; i <= ${array#*-}; i++)); do [ "$i" = 2 ] || SLURM_ARRAY_TASK_ID=$i "$@" >&2; done; fi
+else for ((i = ${array%-*}; i <= ${array#*-}; i++)); do [ "$i" = 2 ] || SLURM_ARRAY_TASK_ID=$i "$@" >&2; done; ls "$REPORTS" > "$JOBS.left"; fi
 wc -l < "$JOBS"
 )");
         std::filesystem::permissions(folder / "bin/sbatch", std::filesystem::perms::owner_all);
@@ -31,7 +31,10 @@ wc -l < "$JOBS"
     Output submit(Arguments arguments) {
         arguments.insert(arguments.begin(), (sourceFolder / "scripts/slurm/submit").string());
         const std::string path = (folder / "bin").string() + ":" + std::getenv("PATH");
-        return runProcess(arguments, {{"PATH", path}, {"JOBS", (folder / "jobs").string()}, {"LODESTIR", LODESTIR_BINARY}});
+        return runProcess(arguments, {{"PATH", path},
+                                      {"JOBS", (folder / "jobs").string()},
+                                      {"REPORTS", (folder / "out").string()},
+                                      {"LODESTIR", LODESTIR_BINARY}});
     }
 };
 
@@ -47,7 +50,9 @@ TEST_F(SlurmTest, SharesTheStudyOutAndMerges) {
     EXPECT_EQ(rows("results.1-of-3.jsonl"), 2);
     EXPECT_EQ(rows("results.3-of-3.jsonl"), 1);
     EXPECT_EQ(rows("results.jsonl"), 2) << "what a lost job left, the merge makes";
-    EXPECT_EQ(readText(Path(out) / "report.html").find("still missing"), std::string::npos);
+    EXPECT_EQ(readText(folder / "jobs.left").find("summary.json"), std::string::npos) << "shards leave it to the merge to report";
+    EXPECT_EQ(readJson(Path(out) / "summary.json")["missing"], 0);
+    EXPECT_NE(output.err.find("once all shards are done"), std::string::npos) << output.err;
 }
 
 TEST_F(SlurmTest, WrongUseIsSaid) {

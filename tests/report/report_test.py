@@ -151,10 +151,14 @@ class ReportTest(unittest.TestCase):
         """If this fails, a technique that fails is coloured as one that holds."""
         d = error_charts.outcomes(load(self.folder))
         svg = d.svg()
-        for text in ("reuse, steps aside (box): spike of relmse 1.3 +- 0.1; is strained", "slow &amp; poor, steps aside (box): spike of relmse never; fails; its 95 % interval reaches another outcome"):
+        for text in ("reuse, steps aside (box): spike of relmse 1.3 +- 0.1; is strained", "slow &amp; poor, steps aside (box): spike of relmse unsettled; fails; its 95 % interval reaches another outcome"):
             self.assertIn(f"<title>{text}</title>", svg)
         self.assertEqual(svg.count("<title>"), 2)
         d.close()
+        self.assertEqual([error_charts.short(text) for text in ("1.32 +- 0.2", "-0.342 +- 0.57 %", "4 (4 to unsettled)", "unsettled", "0.0002", "nan")],
+                         ["1.3", "-0.34", "4", "∞", "0", "nan"])
+        case = {"name": "light", "quantity": "energy", "measure": "bias", "limits": [0.02, 0.05]}
+        self.assertEqual(error_charts.row_label(case), "light: energy (%)\nbias, 2 / 5")
 
     def test_outcomes(self):
         self.assertEqual([error_charts.outcome(m, 0.1, 1.0, 0.1) for m in (1.0, 1.2, 1.3, 2.5, 6.0)], [0, 0, 1, 2, 3])
@@ -300,6 +304,49 @@ class ReportTest(unittest.TestCase):
             self.assertIn(str(path), errors.getvalue())
             self.assertIn(text, errors.getvalue())
             (folder / "summary.json").write_text("{ cut" if text == "is damaged or cut" else '{"format": 7}')
+
+    def test_earlier_summaries_are_drawn(self):
+        """If this fails, results that were archived can't be looked at any more."""
+        folder = self.root / "earlier"
+        synthetic.error_study(folder, list(charts.ERROR))
+        summary = json.loads((folder / "summary.json").read_text())
+        for name in ("comparisons", "exponents", "decompositions", "sequences", "outcomes", "baseline"):
+            del summary[name]
+        (folder / "summary.json").write_text(json.dumps(summary))
+        self.assertEqual(run([str(folder), "--quiet"]), 0)
+        text = (folder / "report.html").read_text()
+        self.assertEqual(Tables(text).tables["table.box"], Tables(self.page).tables["table.box"])
+        self.assertNotIn("comparison.box", Tables(text).tables)
+
+    def test_a_lack_is_named(self):
+        """Each member taken away by itself is done without, or named in one sentence. If this fails, a reader of another version's results sees a Traceback."""
+        def members(value, place=()):
+            if isinstance(value, list):
+                value = dict(enumerate(value[:1]))
+            for name in value if isinstance(value, dict) else ():
+                if isinstance(name, str):
+                    yield *place, name
+                yield from members(value[name], (*place, name))
+
+        for name, make in (("error", lambda folder: synthetic.error_study(folder, [])), ("ensemble", synthetic.ensemble_study)):
+            folder = self.root / f"lacks_{name}"
+            make(folder)
+            whole = (folder / "summary.json").read_text()
+            places, named = list(members(json.loads(whole))), 0
+            for place in places:
+                summary = json.loads(whole)
+                owner = summary
+                for step in place[:-1]:
+                    owner = owner[step]
+                del owner[place[-1]]
+                (folder / "summary.json").write_text(json.dumps(summary))
+                errors = io.StringIO()
+                with contextlib.redirect_stderr(errors):
+                    code = run([str(folder), "--quiet"])
+                if code:
+                    self.assertIn("format" if place == ("format",) else f'lacks "{place[-1]}"', errors.getvalue(), place)
+                    named += 1
+            self.assertGreater(named, len(places) // 4, "most can't be done without")
 
     def test_says_what_is_missing(self):
         """If this fails, who lacks a package is not told which."""

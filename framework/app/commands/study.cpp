@@ -30,14 +30,20 @@ struct StudyOptions {
     bool resume = false;
 };
 
-/// What is left to say when rows and report are written.
-void noteRest(std::size_t foreign, std::size_t missing, const char* what, const Path& out) {
-    if (foreign > 0)
-        log::note("{} rows in {} belong to other versions of the study or of what it runs, and are left out", foreign, out.string());
-    if (missing > 0) log::note("{} {} are still missing", missing, what);
+/// What is left to say when rows are written.
+void noteRest(const Study& study, const StudyPlace& place, std::size_t foreign, std::size_t missing, const char* what) {
+    const std::string out = place.out.string();
+    if (foreign > 0) log::note("{} rows in {} belong to other versions of the study or of what it runs, and are left out", foreign, out);
+    if (missing == 0) return;
+    const std::string rest = fmt::format("; once all shards are done, `lodestir study {} --out {} --resume` makes what is left, merges and reports",
+                                         study.file.string(), out);
+    log::note("{} {} are still missing{}", missing, what, place.shard.count > 1 ? rest : "");
 }
 
-/// Rows and report of what was done are there; the rest is not.
+/// Shards don't report on what others are still at: only the run that finds nothing missing does.
+bool reports(const StudyPlace& place, std::size_t missing) { return place.shard.count == 1 || missing == 0; }
+
+/// What was done is there; the rest is not.
 void endEarly(const StudyPlace& place, const InterruptWatch& interrupt) {
     if (!place.problem.empty()) throw Error(place.problem, "what was measured is kept; go on with --resume");
     if (interrupt.signal() != 0) throw Error(std::string("interrupted by ") + interrupt.name(), "go on with --resume");
@@ -45,20 +51,26 @@ void endEarly(const StudyPlace& place, const InterruptWatch& interrupt) {
 
 int runEnsembleStudy(Stage& stage, const Study& study, StudyPlace& place, const InterruptWatch& interrupt) {
     const EnsembleSummary summary = runEnsemble(stage, study, place);
-    std::printf("%s", ensembleText(study, summary).c_str());
-    for (const EnsembleCell& cell : summary.cells)
-        if (cell.complete && study.techniques[cell.technique].planted && cell.result.verdict != Verdict::biased)
-            log::warn("{}: the planted fault \"{}\" goes unnoticed", study.scenes[cell.scene].name, labelOf(study, cell));
-    noteRest(summary.foreign, summary.missing, "chunks of runs", place.out);
+    const bool reported = reports(place, summary.missing);
+    if (reported) {
+        writeReport(place.out, summaryJson(study, summary));
+        std::printf("%s", ensembleText(study, summary).c_str());
+        for (const EnsembleCell& cell : summary.cells)
+            if (cell.complete && study.techniques[cell.technique].planted && cell.result.verdict != Verdict::biased)
+                log::warn("{}: the planted fault \"{}\" goes unnoticed", study.scenes[cell.scene].name, labelOf(study, cell));
+    }
+    noteRest(study, place, summary.foreign, summary.missing, "chunks of runs");
     endEarly(place, interrupt);
-    return summary.failed(study) ? 1 : 0;
+    return reported && summary.failed(study) ? 1 : 0;
 }
 
 int runErrorStudy(Stage& stage, const Study& study, StudyPlace& place, const InterruptWatch& interrupt) {
     const Summary summary = runErrors(stage, study, place);
-    writeReport(place.out, summaryJson(study, summary));
-    std::printf("%s%s", summaryText(study, summary).c_str(), outcomesText(study, summary.outcomes).c_str());
-    noteRest(summary.foreign, summary.missing, "runs", place.out);
+    if (reports(place, summary.missing)) {
+        writeReport(place.out, summaryJson(study, summary));
+        std::printf("%s%s", summaryText(study, summary).c_str(), outcomesText(study, summary.outcomes).c_str());
+    }
+    noteRest(study, place, summary.foreign, summary.missing, "runs");
     endEarly(place, interrupt);
     return 0;
 }
@@ -93,7 +105,7 @@ void addStudy(CLI::App& app, std::function<int()>& run) {
     command.option("STUDY", options->study, "study file").required();
     command.option("--out", options->out, "folder for what is written (out/<name of the study>)").check(checkNotEmpty);
     command.flag("--resume", options->resume, "keep the results that are there, make what is missing");
-    command.option("--shard", options->shard, "make one part of the runs: I/N, with I from 1 to N")
+    command.option("--shard", options->shard, "make one part of the runs: I/N, with I from 1 to N; the one that finds nothing missing reports")
         .check([](const std::string& text) {
             try {
                 readShard(text);

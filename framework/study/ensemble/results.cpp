@@ -163,9 +163,4 @@ EnsembleSummary summarizeEnsemble(const Study& study, const std::vector<Ensemble
     return summary;
 }
 
-std::string labelOf(const Study& study, const EnsembleCell& cell) {
-    const std::string knobs = knobText(cell.knobs, cell.knobs.size());
-    return study.techniques[cell.technique].name + (knobs.empty() ? "" : ", " + knobs);
-}
-
 }  // namespace lodestir

@@ -64,7 +64,4 @@ std::set<std::string> finishedChunks(const Study& study, const std::vector<Ensem
 EnsembleSummary summarizeEnsemble(const Study& study, const std::vector<EnsembleChunk>& chunks, const std::vector<std::string>& names,
                                   const std::vector<EnsembleRow>& rows);
 
-/// "ours, radius 8"
-std::string labelOf(const Study& study, const EnsembleCell& cell);
-
 }  // namespace lodestir

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/study/content.h>
 #include <framework/study/ensemble/runs.h>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <framework/study/frame_cost.h>
 
 #include <algorithm>
 #include <set>
@@ -14,7 +12,7 @@ namespace {
 constexpr std::array<double, 3> luminance{0.2126, 0.7152, 0.0722};
 
 std::string keyOf(const EnsembleChunk& chunk) {
-    return fmt::format("{} {} {}", chunk.scene, chunk.technique ? int(*chunk.technique) : -1, knobJson(chunk.knobs).dump());
+    return configurationKey(chunk.scene, chunk.technique.value_or(std::size_t(-1)), chunk.knobs);
 }
 
 /// Whether a node's outputs depend on earlier frames; `seen`: nodes that were asked already.
@@ -44,9 +42,7 @@ public:
             sum_[4 * p + 3] += y * y;
         }
         frame_.milliseconds += report.milliseconds;
-        for (const PassReport& pass : report.passes)
-            for (std::size_t i = 0; i < pass.rays.size(); ++i)
-                if (i != RAYS_STEPS) frame_.rays += double(pass.rays[i]);
+        frame_.rays += raysOf(report);
     }
     ChunkFrame finish() {
         const auto runs = double(frame_.means.runs());

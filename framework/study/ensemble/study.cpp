@@ -4,8 +4,6 @@
 #include <framework/study/ensemble/images.h>
 #include <framework/study/ensemble/study.h>
 #include <framework/study/report/images.h>
-#include <framework/study/report/report.h>
-#include <framework/study/report/summary_json.h>
 #include <framework/study/results.h>
 
 #include <fmt/format.h>
@@ -83,7 +81,6 @@ EnsembleSummary runEnsemble(Stage& stage, const Study& study, StudyPlace& place)
     EnsembleSummary summary = summarizeEnsemble(study, chunks, names, readEnsembleRows(out));
     for (EnsembleCell& cell : summary.cells)
         if (cell.complete) cell.convergence = judgeImages(study, cell, out);
-    writeReport(out, summaryJson(study, summary));
     return summary;
 }
 

@@ -19,6 +19,8 @@ struct Parts {
 
 }  // namespace
 
+bool isDecomposed(std::string_view metric) { return metric == "mse" || metric == "relmse"; }
+
 Decomposition decompose(std::string_view metric, const std::vector<ImageData>& runs, const Halves& reference, const MetricOptions& options) {
     std::vector<double> sum(reference.mean.values.size()), errors;
     for (const ImageData& run : runs) {

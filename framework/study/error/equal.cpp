@@ -5,6 +5,7 @@
 #include <framework/study/content.h>
 #include <framework/study/error/equal.h>
 #include <framework/study/error/statistics.h>
+#include <framework/study/frame_cost.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,14 +28,6 @@ struct Configuration {
     std::vector<Setting> knobs;
     std::string key, name;  ///< name: hash of all that its cost depends on
 };
-
-double raysOf(const FrameReport& report) {
-    double rays = 0;
-    for (const PassReport& pass : report.passes)
-        for (std::size_t i = 0; i < pass.rays.size(); ++i)
-            if (!pass.setup && i != RAYS_STEPS) rays += double(pass.rays[i]);
-    return rays;
-}
 
 /// Milliseconds, or rays a pixel, of the measured frames.
 double costOf(Stage& stage, const Study& study, StudyRun run) {

@@ -12,14 +12,18 @@ Halves::Halves(ImageData first, ImageData second) : a(std::move(first)), b(std::
     for (std::size_t i = 0; i < mean.values.size(); ++i) mean.values[i] = 0.5f * (a.values[i] + b.values[i]);
 }
 
-bool isNoiseFree(std::string_view metric) { return metric == "mse" || metric == "relmse"; }
+bool isNoiseFree(std::string_view metric) { return metric == "mse" || metric == "relmse" || metric == "relmse_trimmed"; }
 
 double measureError(std::string_view metric, const ImageData& test, const Halves& reference, const MetricOptions& options) {
-    return evaluate(metric, test, reference.mean, options) - referenceNoise(metric, reference, options);
+    return evaluate(metric, test, reference.mean, options) - referenceNoise(metric, test, reference, options);
 }
 
-double referenceNoise(std::string_view metric, const Halves& reference, const MetricOptions& options) {
-    return isNoiseFree(metric) ? evaluate(metric, reference.a, reference.mean, options) : 0;
+double referenceNoise(std::string_view metric, const ImageData& test, const Halves& reference, const MetricOptions& options) {
+    if (!isNoiseFree(metric)) return 0;
+    if (metric != "relmse_trimmed") return evaluate(metric, reference.a, reference.mean, options);
+    MetricOptions kept = options;
+    kept.mask = trimmedMask(test, reference.mean, options);
+    return evaluate("relmse", reference.a, reference.mean, kept);
 }
 
 double referenceDeviation(std::string_view metric, const Halves& reference, const MetricOptions& options) {

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <framework/graph/ray_purposes.h>
 #include <framework/image/exr.h>
 #include <framework/image/metrics.h>
 #include <framework/image/temporal.h>
 #include <framework/study/error/measure.h>
+#include <framework/study/frame_cost.h>
 #include <framework/study/report/images.h>
 
 #include <fmt/format.h>
 
 namespace lodestir {
-
-std::vector<PassCost> costsOf(const FrameReport& report) {
-    std::vector<PassCost> costs;
-    for (const PassReport& pass : report.passes) {
-        if (pass.setup) continue;
-        PassCost cost{.name = pass.name, .milliseconds = pass.milliseconds};
-        for (std::size_t i = 0; i < rayPurposes.size(); ++i)
-            if (i != RAYS_STEPS) cost.rays[std::string(rayPurposes[i])] = pass.rays[i];
-        costs.push_back(std::move(cost));
-    }
-    return costs;
-}
 
 std::vector<ResultRow> measureRun(Stage& stage, const Study& study, const StudyRun& run, const std::string& name, const SceneReferences& references,
                                   const Path& images, const Path& out) {
@@ -57,7 +45,7 @@ std::vector<ResultRow> measureRun(Stage& stage, const Study& study, const StudyR
             row.metrics[measure.name()] = measureError(measure.metric, frames[i].image, reference, how);
             if (const double deviation = referenceDeviation(measure.metric, reference, how); deviation > 0)
                 row.deviation[measure.name()] = deviation;
-            if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, reference, how);
+            if (isNoiseFree(measure.metric)) row.noise[measure.name()] = referenceNoise(measure.metric, frames[i].image, reference, how);
         }
         if (!images.empty()) writeExr(imageFile(images, name, study.measure[i]), frames[i].image);
         rows.push_back(std::move(row));

@@ -9,9 +9,6 @@
 
 namespace lodestir {
 
-/// By pass: milliseconds, and rays by purpose; without what is made once.
-std::vector<PassCost> costsOf(const FrameReport& report);
-
 /// Renders a run and measures it. `name`: the hash that its rows are named by. `images`: a folder that its images are kept in; empty: none is. In `out` the
 /// one that the report shows is kept, if it is of this run.
 std::vector<ResultRow> measureRun(Stage& stage, const Study& study, const StudyRun& run, const std::string& name, const SceneReferences& references,

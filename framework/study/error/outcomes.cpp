@@ -4,12 +4,15 @@
 #include <framework/scene/fields.h>
 #include <framework/study/error/outcomes.h>
 #include <framework/study/error/summary.h>
+#include <framework/study/named.h>
+#include <framework/study/run_list.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -26,9 +29,9 @@ public:
         fields.text("baseline", baseline);
         if (const Json* name = fields.find("baseline"))
             problems_.attempt([&] {
-                rules_.baseline = indexOf(study_.techniques, baseline, "technique", name->where());
-                if (!study_.techniques[*rules_.baseline].vary.empty())
-                    throw Error(name->where(), "the baseline's knobs vary", "name a technique without \"vary\"");
+                rules_.baseline = indexNamed<&Technique::name>(study_.techniques, baseline, "technique", name->where());
+                if (study_.techniques[*rules_.baseline].vary.size() > 1)
+                    throw Error(name->where(), "several knobs of the baseline vary", "one is enough to find its error at any rays");
             });
         if (const Json* cases = fields.require("cases"))
             problems_.attempt([&] {
@@ -40,21 +43,14 @@ public:
     }
 
 private:
-    template <class T> static std::size_t indexOf(const std::vector<T>& all, const std::string& name, const char* what, const Where& where) {
-        std::vector<std::string> names;
-        for (const T& one : all) names.push_back(one.name);
-        const auto found = std::ranges::find(names, name);
-        if (found == names.end()) throw Error(where, fmt::format("the study has no {} \"{}\"", what, name), didYouMean(name, names));
-        return std::size_t(found - names.begin());
-    }
-
     void readCase(const Json& json) {
         Fields fields(json, "a case", problems_);
         FailureCase rule{.where = json.where()};
         fields.require("name"), fields.text("name", rule.name);
         std::string scene;
         fields.text("scene", scene);
-        if (const Json* name = fields.require("scene")) problems_.attempt([&] { rule.scene = indexOf(study_.scenes, scene, "scene", name->where()); });
+        if (const Json* name = fields.require("scene"))
+            problems_.attempt([&] { rule.scene = indexNamed<&StudyScene::name>(study_.scenes, scene, "scene", name->where()); });
         std::size_t quantity = 0;
         if (fields.require("quantity")) fields.choice("quantity", quantity, quantityNames);
         rule.quantity = StabilityQuantity(quantity);
@@ -72,12 +68,8 @@ private:
     }
 
     void checkMeasure(const FailureCase& rule, const Json& name) const {
-        std::vector<std::string> names;
         const std::vector<Measure> measures = measuresOf(study_);
-        for (const Measure& measure : measures) names.push_back(measure.name());
-        const auto found = std::ranges::find(names, rule.measure);
-        if (found == names.end()) throw Error(name.where(), fmt::format("the study doesn't measure \"{}\"", rule.measure), didYouMean(rule.measure, names));
-        const std::string& metric = measures[std::size_t(found - names.begin())].metric;
+        const std::string& metric = measures[indexNamed<&Measure::name>(measures, rule.measure, "measure", name.where())].metric;
         const auto demand = [&](StabilityQuantity quantity, const char* of) {
             if (rule.quantity == quantity && metric != of)
                 throw Error(name.where(), fmt::format("\"{}\" is made of {}, not of {}", nameOf(quantity), of, metric));
@@ -107,15 +99,36 @@ Outcome outcomeOf(const FailureCase& rule, double value) {
     return value <= rule.limits[0] ? Outcome::holds : value <= rule.limits[1] ? Outcome::strained : Outcome::fails;
 }
 
-StabilityNumber quantityOf(StabilityQuantity quantity, const Course& course, const Course& baseline) {
+std::optional<StabilityNumber> quantityOf(StabilityQuantity quantity, const Course& course, const std::vector<Course>& baselines) {
     switch (quantity) {
     case StabilityQuantity::spike: return spikeHeight(course);
     case StabilityQuantity::recovery: return recoveryTime(course);
     case StabilityQuantity::popping: return poppingIndex(course);
     case StabilityQuantity::energy: return energyError(course);
-    case StabilityQuantity::baseline: return errorAgainst(course, baseline);
+    case StabilityQuantity::baseline: return errorAgainst(course, baselines);
     }
     return {};
+}
+
+/// A technique with values of its knobs, but for what was solved for, which differs from scene to scene.
+std::string columnOf(const Study& study, const Cell& cell) {
+    return labelOf(study, cell.technique, std::span(cell.knobs).first(study.techniques[cell.technique].vary.size()));
+}
+
+/// What a case is judged by, of each column; of columns that the case's measure was taken of.
+std::map<std::string, Course> coursesOf(const FailureCase& rule, const Study& study, const std::vector<Cell>& cells) {
+    std::map<std::string, Course> courses;
+    for (const Cell& cell : cells) {
+        const auto found = cell.values.find(rule.measure);
+        if (cell.scene != rule.scene || found == cell.values.end()) continue;
+        Course& course = courses[columnOf(study, cell)];
+        course.offsets.push_back(cell.offset);
+        course.values.push_back(found->second);
+        const auto deviation = cell.deviation.find(rule.measure);
+        course.deviations.push_back(deviation == cell.deviation.end() ? 0 : deviation->second);
+        course.rays.push_back(cell.rays.mean / study.scenes[cell.scene].pixels());
+    }
+    return courses;
 }
 
 }  // namespace
@@ -144,32 +157,27 @@ OutcomeCell judge(const FailureCase& rule, const StabilityNumber& number) {
 OutcomeMatrix judgeOutcomes(const Study& study, const std::vector<Cell>& cells) {
     OutcomeMatrix matrix;
     if (!study.outcomes) return matrix;
-    std::vector<std::map<std::string, Course>> courses;  // of each case, by column
-    std::optional<std::string> baseline;
-    if (study.outcomes->baseline) baseline = study.techniques[*study.outcomes->baseline].name;
-    for (const FailureCase& rule : study.outcomes->cases) {
-        std::map<std::string, Course>& ofCase = courses.emplace_back();
-        for (const Cell& cell : cells) {
-            const std::string column = labelOf(study, cell);
-            if (std::ranges::find(matrix.columns, column) == matrix.columns.end()) matrix.columns.push_back(column);
-            const auto found = cell.values.find(rule.measure);
-            if (cell.scene != rule.scene || found == cell.values.end()) continue;
-            ofCase[column].offsets.push_back(cell.offset);
-            ofCase[column].values.push_back(found->second);
-            const auto deviation = cell.deviation.find(rule.measure);
-            ofCase[column].deviations.push_back(deviation == cell.deviation.end() ? 0 : deviation->second);
-        }
+    std::vector<std::string> ofBaseline;  // columns
+    for (const Cell& cell : cells) {
+        const std::string column = columnOf(study, cell);
+        if (std::ranges::find(matrix.columns, column) != matrix.columns.end()) continue;
+        matrix.columns.push_back(column);
+        if (study.outcomes->baseline == cell.technique) ofBaseline.push_back(column);
     }
-    for (std::size_t i = 0; i < courses.size(); ++i) {
-        const FailureCase& rule = study.outcomes->cases[i];
+    for (const FailureCase& rule : study.outcomes->cases) {
+        const std::map<std::string, Course> courses = coursesOf(rule, study, cells);
+        std::vector<Course> baselines;
+        for (const std::string& column : ofBaseline)
+            if (const auto course = courses.find(column); course != courses.end()) baselines.push_back(course->second);
         auto& row = matrix.rows.emplace_back();
-        const auto base = baseline ? courses[i].find(*baseline) : courses[i].end();
         for (const std::string& column : matrix.columns) {
-            const auto course = courses[i].find(column);
-            const bool isCompared = rule.quantity == StabilityQuantity::baseline;
-            const bool measured = course != courses[i].end() && (!isCompared || (base != courses[i].end() && base != course));
-            row.push_back(measured ? std::optional(judge(rule, quantityOf(rule.quantity, course->second, base == courses[i].end() ? Course{} : base->second)))
-                                   : std::nullopt);
+            row.emplace_back();
+            const auto course = courses.find(column);
+            if (course == courses.end()) continue;
+            const bool isBaseline = std::ranges::find(ofBaseline, column) != ofBaseline.end();
+            const bool hasBaseline = !baselines.empty() && baselines.size() == ofBaseline.size();
+            if (rule.quantity == StabilityQuantity::baseline && (isBaseline || !hasBaseline)) continue;
+            if (const auto number = quantityOf(rule.quantity, course->second, baselines)) row.back() = judge(rule, *number);
         }
     }
     return matrix;
@@ -178,7 +186,7 @@ OutcomeMatrix judgeOutcomes(const Study& study, const std::vector<Cell>& cells) 
 std::string numberText(const FailureCase& rule, const StabilityNumber& number) {
     const bool hasInterval = !std::isnan(number.low) && !std::isnan(number.high);
     if (rule.quantity == StabilityQuantity::recovery) {
-        const auto frames = [](double value) { return std::isinf(value) ? std::string("never") : fmt::format("{:.0f}", value); };
+        const auto frames = [](double value) { return std::isinf(value) ? std::string("unsettled") : fmt::format("{:.0f}", value); };
         return frames(number.value) + (hasInterval && number.low != number.high ? fmt::format(" ({} to {})", frames(number.low), frames(number.high)) : "");
     }
     const double unit = rule.quantity == StabilityQuantity::energy ? 100 : 1;
@@ -201,7 +209,7 @@ std::string outcomesText(const Study& study, const OutcomeMatrix& matrix) {
     std::vector<std::size_t> widths(lines.front().size());
     for (const auto& line : lines)
         for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-    std::string text = "outcomes (?: the 95 % interval reaches another)\n";
+    std::string text = "outcomes (?: the 95 % interval reaches another; -: not measured, or at rays that the baseline has no error at)\n";
     for (const auto& line : lines) {
         for (std::size_t i = 0; i < line.size(); ++i) text += fmt::format("  {:<{}}", line[i], widths[i]);
         text.erase(text.find_last_not_of(' ') + 1);

@@ -28,7 +28,7 @@ struct FailureCase {
 };
 
 struct OutcomeRules {
-    std::optional<std::size_t> baseline;  ///< the technique that "baseline" divides by
+    std::optional<std::size_t> baseline;  ///< the technique that "baseline" divides by, at equal rays where one of its knobs varies
     std::vector<FailureCase> cases;
 };
 
@@ -45,8 +45,8 @@ struct OutcomeCell {
     bool certain = false;  ///< all of the interval has this outcome
 };
 
-/// A technique with values of its knobs is a column, a case a row; a cell is absent where nothing was measured yet, and where
-/// the baseline would be held against itself.
+/// A technique with values of its knobs is a column, a case a row; a cell is absent where nothing was measured yet, where the baseline would be held
+/// against itself, and where it has no error at as many rays.
 struct OutcomeMatrix {
     std::vector<std::string> columns;
     std::vector<std::vector<std::optional<OutcomeCell>>> rows;  ///< parallel to OutcomeRules::cases

@@ -25,10 +25,18 @@ std::vector<double> meansOf(const Course& course, bool before) {
     return means;
 }
 
+/// Mean over the frames from the event on.
+double raysOf(const Course& course) {
+    double sum = 0, frames = 0;
+    for (std::size_t i = 0; i < course.offsets.size(); ++i)
+        if (course.offsets[i] >= 0) sum += course.rays[i], ++frames;
+    return sum / frames;
+}
+
 double recovery(const Course& errors, double factor) {
-    const double level = std::max(estimateMean(meansOf(errors, true)).mean, estimateMean(errors.values.back()).mean);
+    const double level = estimateMean(meansOf(errors, true)).mean;
     double since = infinity;
-    for (std::size_t i = errors.offsets.size() - 1; i-- > 0 && errors.offsets[i] >= 0;) {
+    for (std::size_t i = errors.offsets.size(); i-- > 0 && errors.offsets[i] >= 0;) {
         if (!(estimateMean(errors.values[i]).mean <= factor * level)) break;
         since = errors.offsets[i];
     }
@@ -78,10 +86,32 @@ StabilityNumber energyError(const Course& bias) {
     return intervalOf(withSharedError(estimateMean(meansOf(bias, false)), std::sqrt(squares) / frames));
 }
 
-StabilityNumber errorAgainst(const Course& errors, const Course& baseline) {
-    const Estimate a = estimateMean(meansOf(errors, false)), b = estimateMean(meansOf(baseline, false));
-    const double ratio = a.mean / b.mean;
-    return intervalOf({.mean = ratio, .halfWidth = std::abs(ratio) * std::hypot(a.halfWidth / a.mean, b.halfWidth / b.mean)});
+std::optional<StabilityNumber> errorAgainst(const Course& errors, const std::vector<Course>& baselines) {
+    /// A baseline's logarithm, and the half-width of that.
+    struct Point {
+        double rays, error, halfWidth;
+    };
+    std::vector<Point> points;
+    for (const Course& baseline : baselines) {
+        const Estimate mean = estimateMean(meansOf(baseline, false));
+        points.push_back({baselines.size() > 1 ? raysOf(baseline) : 0, std::log(mean.mean), mean.halfWidth / mean.mean});
+    }
+    std::ranges::sort(points, {}, &Point::rays);
+    const Point* below = &points.front();
+    const Point* above = below;
+    double share = 0;  // of the way from below to above
+    if (points.size() > 1) {
+        const double rays = raysOf(errors);
+        const auto next = std::ranges::find_if(points, [&](const Point& point) { return point.rays >= rays; });
+        if (next == points.end() || (next == points.begin() && next->rays > rays)) return {};
+        above = &*next;
+        below = next == points.begin() ? above : above - 1;
+        if (below != above) share = std::log(rays / below->rays) / std::log(above->rays / below->rays);
+    }
+    const Estimate mean = estimateMean(meansOf(errors, false));
+    const double ratio = mean.mean / std::exp((1 - share) * below->error + share * above->error);
+    const double ofBaseline = std::hypot((1 - share) * below->halfWidth, share * above->halfWidth);
+    return intervalOf({.mean = ratio, .halfWidth = std::abs(ratio) * std::hypot(mean.halfWidth / mean.mean, ofBaseline)});
 }
 
 }  // namespace lodestir

@@ -3,7 +3,7 @@
 #pragma once
 #include <framework/study/error/statistics.h>
 
-#include <span>
+#include <optional>
 #include <vector>
 
 namespace lodestir {
@@ -13,6 +13,7 @@ struct Course {
     std::vector<int> offsets;                 ///< frames after the event; negative: before it
     std::vector<std::vector<double>> values;  ///< parallel to `offsets`
     std::vector<double> deviations;           ///< likewise: standard deviation that the reference's noise gives all runs alike; empty: none
+    std::vector<double> rays{};               ///< likewise: mean over runs, a pixel
 
     std::size_t runs() const { return values.empty() ? 0 : values.front().size(); }
     /// Without one of its runs.
@@ -28,8 +29,8 @@ struct StabilityNumber {
 /// frame is chosen by the means over runs, so that noise raises it a little; the interval is that of the ratio of this frame's (delta method).
 StabilityNumber spikeHeight(const Course& errors);
 
-/// How long it suffers, in frames: the first measured frame, from the event on, from which on all mean errors stay within `factor` of the level before the
-/// event, or of that of the last measured frame if it is higher: what it settles at. Infinite where only the last frame is. It is as fine as
+/// How long it suffers, in frames: the first measured frame, from the event on, from which on all mean errors stay within `factor` of the mean error before
+/// the event, the level that spikeHeight() divides by. Infinite where the last measured frame doesn't: it hasn't settled, wherever it will. It is as fine as
 /// the frames measured. The interval spans what it is without any one of the runs. (1.1: studies/lod_restir, after Fig. 7 of the LoD paper.)
 StabilityNumber recoveryTime(const Course& errors, double factor = 1.1);
 
@@ -42,7 +43,9 @@ StabilityNumber poppingIndex(const Course& stepFlip);
 StabilityNumber energyError(const Course& bias);
 
 /// How much worse a technique is than a baseline: its mean error over the measured frames from the event on over the baseline's, whose runs are independent; a
-/// ratio.
-StabilityNumber errorAgainst(const Course& errors, const Course& baseline);
+/// ratio. One baseline is taken at whatever rays it is; of several, as one at rising numbers of samples, the error at the technique's own rays (over the same
+/// frames) is looked up between the two nearest, on the straight line through the logarithms of both, as errors fall by powers. Nothing where it takes fewer
+/// rays than all of them, or more.
+std::optional<StabilityNumber> errorAgainst(const Course& errors, const std::vector<Course>& baselines);
 
 }  // namespace lodestir

@@ -31,7 +31,7 @@ public:
 
     Summary run() {
         equal_ = solveEqual(stage_, study_, place_);
-        if (!place_.problem.empty() || place_.stops()) return {};  // which runs there are isn't known yet
+        if (!place_.problem.empty() || place_.stops()) return {.missing = expandRuns(study_).size()};  // which those are isn't known yet
         runs_ = expandRuns(study_, equal_);
         for (const StudyRun& run : runs_) names_.push_back(stage_.nameOf(run));
         makeMissing();
@@ -112,7 +112,7 @@ private:
             for (const std::string& run : cell.runs) images.push_back(readExr(imageFile(images_, run, cell.offset)));
             const MetricOptions how{.exposure = exposureOf(reference(cell.scene, study_.measure.front(), false).mean)};
             for (const Measure& measure : measuresOf(study_)) {
-                if (!isNoiseFree(measure.metric) || !measure.mask.empty()) continue;
+                if (!isDecomposed(measure.metric) || !measure.mask.empty()) continue;
                 Decomposition parts = decompose(measure.metric, images, reference(cell.scene, cell.offset, measure.finest), how);
                 parts.cell = i;
                 parts.metric = measure.name();

@@ -31,15 +31,6 @@ std::set<std::string> finishedRuns(const Study& study, const std::vector<ResultR
 Summary summarize(const Study& study, const std::vector<StudyRun>& runs, const std::vector<std::string>& names,
                   const std::vector<ResultRow>& rows);
 
-/// The technique of a cell, with the values of its knobs.
-std::string labelOf(const Study& study, const Cell& cell);
-
-/// "spp 4, mode fast": the knobs without their passes; empty where there are none. `count`: only the first so many.
-std::string knobText(const std::vector<Setting>& knobs, std::size_t count);
-
-/// "ours, radius 8"
-std::string labelOf(const Study& study, const Cell& cell);
-
 /// Tables for terminals.
 std::string summaryText(const Study& study, const Summary& summary);
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -116,7 +117,7 @@ private:
         if (!ablation) return labelOf(study_, cell);
         std::string parts;
         for (const std::string& part : ablation->parts) parts += (parts.empty() ? "" : " and ") + part;
-        const std::string knobs = knobText(cell.knobs, cell.knobs.size());
+        const std::string knobs = knobText(cell.knobs);
         return parts + (knobs.empty() ? "" : ", " + knobs);
     }
 
@@ -125,9 +126,9 @@ private:
         for (const Exponent& exponent : summary_.exponents) {
             const Cell& cell = summary_.cells[exponent.cell];
             if (cell.scene != scene) continue;
-            const std::string knobs = exponent.over.empty() ? knobText(cell.knobs, cell.knobs.size()) : knobText(cell.knobs, cell.knobs.size() - 1);
-            text += fmt::format("  {}{}: {} ~ {}^({})\n", study_.techniques[cell.technique].name, knobs.empty() ? "" : ", " + knobs, exponent.metric,
-                                exponent.over.empty() ? "frames" : exponent.over, textOf(exponent.estimate));
+            const std::span knobs(cell.knobs);
+            text += fmt::format("  {}: {} ~ {}^({})\n", labelOf(study_, cell.technique, exponent.over.empty() ? knobs : knobs.first(knobs.size() - 1)),
+                                exponent.metric, exponent.over.empty() ? "frames" : exponent.over, textOf(exponent.estimate));
         }
         return text;
     }
@@ -148,21 +149,6 @@ private:
 };
 
 }  // namespace
-
-std::string knobText(const std::vector<Setting>& knobs, std::size_t count) {
-    std::string text;
-    for (std::size_t i = 0; i < std::min(count, knobs.size()); ++i) {
-        const Json& value = knobs[i].value;
-        text += fmt::format("{}{} {}", i == 0 ? "" : ", ", knobs[i].name.substr(knobs[i].name.find('.') + 1),
-                            value.isString() ? value.asString() : value.dump(-1));
-    }
-    return text;
-}
-
-std::string labelOf(const Study& study, const Cell& cell) {
-    const std::string knobs = knobText(cell.knobs, cell.knobs.size());
-    return study.techniques[cell.technique].name + (knobs.empty() ? "" : ", " + knobs);
-}
 
 std::string summaryText(const Study& study, const Summary& summary) { return Tables(study, summary).text(); }
 

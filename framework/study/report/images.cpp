@@ -21,7 +21,7 @@ std::string fileName(std::string text) {
 }  // namespace
 
 Path shownImageFile(const Study& study, const StudyRun& run, const std::string& hash) {
-    const std::string knobs = knobText(run.knobs, run.knobs.size());
+    const std::string knobs = knobText(run.knobs);
     return Path("images") / fileName(fmt::format("{}.{}{}{}.{}.exr", study.scenes[run.scene].name, study.techniques[run.technique].name,
                                                  knobs.empty() ? "" : ".", knobs, hash.substr(0, 8)));
 }

@@ -15,11 +15,6 @@ namespace lodestir::generate {
 
 namespace {
 
-Mesh inTiles(Mesh mesh, float repeat) {
-    scaleUv(mesh, glm::vec2(1 / repeat));
-    return mesh;
-}
-
 Mesh boxAt(const glm::vec3& size, const glm::vec3& centre, float radius = 0.02f) { return placed(inTiles(roundedBox(size, radius, 1), washSize), centre); }
 
 /// Walls with gables at both ends of x; the eaves run along x.

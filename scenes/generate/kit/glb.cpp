@@ -209,6 +209,8 @@ int Glb::addMesh(const std::string& name, const std::vector<std::pair<int, int>>
     return int(tables->meshes.size()) - 1;
 }
 
+int Glb::addMesh(const std::string& name, const Mesh& mesh, int material) { return addMesh(name, {{addGeometry(mesh), material}}); }
+
 int Glb::addMesh(const Model& model) {
     std::vector<std::pair<int, int>> parts;
     for (const auto& [material, part] : model.parts) {

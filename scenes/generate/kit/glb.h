@@ -109,6 +109,8 @@ public:
     /// target, which starts at weight 0; empty: none.
     int addGeometry(const Mesh& mesh, const std::vector<glm::vec3>& morphed = {});
     int addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial);
+    /// All of one material.
+    int addMesh(const std::string& name, const Mesh& mesh, int material);
 
     /// Computes tangents for the parts whose material has a normal picture, and adds the mesh.
     int addMesh(const Model& model);

@@ -165,4 +165,9 @@ void scaleUv(Mesh& mesh, const glm::vec2& scale, const glm::vec2& offset) {
     for (Vertex& v : mesh.vertices) v.uv = v.uv * scale + offset;
 }
 
+Mesh inTiles(Mesh mesh, float repeat) {
+    scaleUv(mesh, glm::vec2(1 / repeat));
+    return mesh;
+}
+
 }  // namespace lodestir::generate

@@ -59,5 +59,7 @@ void computeTangents(Mesh& mesh);
 
 /// Multiplies and shifts all UVs.
 void scaleUv(Mesh& mesh, const glm::vec2& scale, const glm::vec2& offset = glm::vec2(0));
+/// UVs of metres for a picture that repeats after `repeat` metres.
+Mesh inTiles(Mesh mesh, float repeat);
 
 }  // namespace lodestir::generate

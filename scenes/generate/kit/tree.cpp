@@ -89,8 +89,22 @@ Mesh tree(uint32_t seed, const TreeForm& form) {
     return wood;
 }
 
-Mesh flowerPatch(uint32_t seed, int count, float radius, const glm::vec3& petals, const glm::vec3& others) {
-    Random random(seed);
+TreeForm cherry(float height, float spread, int dabs, float dab) {
+    return {.height = height,
+            .spread = spread,
+            .waist = 0.5f,
+            .bare = 0.32f,
+            .dabs = dabs,
+            .dab = dab,
+            .shade = {0.42f, 0.16f, 0.20f},
+            .light = {0.86f, 0.56f, 0.58f},
+            .accent = {0.90f, 0.80f, 0.76f}};
+}
+
+Material dabs() { return {.name = "dabs", .ior = 1, .doubleSided = true}; }
+
+Mesh flowerPatch(const Flower& flower, int count, float radius) {
+    Random random(flower.seed);
     Mesh mesh;
     for (int i = 0; i < count; ++i) {
         const float r = radius * std::sqrt(random.next()), a = random.between(0, tau), height = random.between(0.14f, 0.42f);
@@ -106,7 +120,7 @@ Mesh flowerPatch(uint32_t seed, int count, float radius, const glm::vec3& petals
             addDab(mesh, foot, d * 0.12f, glm::vec3(std::cos(b), 0, -std::sin(b)) * 0.02f, {0, 1, 0}, {0.10f, 0.17f, 0.045f});
         }
         const float size = random.between(0.028f, 0.052f);
-        const glm::vec3 color = (random.next() < 0.7f ? petals : others) * random.between(0.8f, 1.15f);
+        const glm::vec3 color = (random.next() < 0.7f ? flower.petals : flower.others) * random.between(0.8f, 1.15f);
         for (int k = 0; k < 5; ++k) {
             const float b = turn + tau * float(k) / 5;
             const glm::vec3 out = right * std::cos(b) + ahead * std::sin(b), across = right * -std::sin(b) + ahead * std::cos(b);

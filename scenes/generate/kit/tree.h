@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "glb.h"
 #include "mesh.h"
 
 namespace lodestir::generate {
@@ -26,7 +27,23 @@ struct TreeForm {
 /// A tree that stands on the origin. It has to be seen from both sides.
 Mesh tree(uint32_t seed, const TreeForm& form);
 
-/// A patch of flowers about `radius` metres wide: stems, and heads of five petals in two colours.
-Mesh flowerPatch(uint32_t seed, int count, float radius, const glm::vec3& petals, const glm::vec3& others);
+/// A cherry in blossom.
+TreeForm cherry(float height, float spread, int dabs, float dab);
+
+/// A kind of flower: heads of five petals in two colours.
+struct Flower {
+    const char* name;
+    uint32_t seed;
+    glm::vec3 petals, others;
+};
+inline constexpr Flower poppies{"poppies", 11, {0.78f, 0.085f, 0.045f}, {0.85f, 0.78f, 0.62f}};
+inline constexpr Flower cornflowers{"cornflowers", 12, {0.13f, 0.20f, 0.66f}, {0.62f, 0.42f, 0.72f}};
+inline constexpr Flower buttercups{"buttercups", 13, {0.86f, 0.62f, 0.06f}, {0.88f, 0.84f, 0.74f}};
+
+/// A patch of flowers about `radius` metres wide, on stems.
+Mesh flowerPatch(const Flower& flower, int count, float radius);
+
+/// What trees, flowers and tufts of grass wear: seen from both sides, without gloss.
+Material dabs();
 
 }  // namespace lodestir::generate

@@ -23,6 +23,12 @@ float washAt(const Noise& patch, const Noise& paper, const glm::vec2& q) {
 
 }  // namespace
 
+Material wash(const Material& picture, const std::string& name, const glm::vec3& color) {
+    Material paint = picture;
+    paint.name = name, paint.color = color, paint.ior = 1;
+    return paint;
+}
+
 Textures paintWash(uint32_t seed, int width) {
     const Noise patch{seed, {5, 5, 0}}, paper{seed + 1, {160, 160, 0}};
     return paint({.width = width, .height = width, .metres = glm::vec2(washSize), .smooth = true}, [&](const glm::vec2& p) {

@@ -4,10 +4,17 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
+#include <glm/glm.hpp>
+
+#include "glb.h"
 #include "picture.h"
 
 namespace lodestir::generate {
+
+/// A matt paint, no gloss at all: an index of refraction of 1. `picture`: a material that wears one of these.
+Material wash(const Material& picture, const std::string& name, const glm::vec3& color);
 
 /// A wash that dried in patches; repeats after washSize metres.
 Textures paintWash(uint32_t seed, int width);

@@ -20,11 +20,6 @@ namespace {
 constexpr float bay = 1.35f, court = 9, columnHeight = 2.0f, columnRadius = 0.13f, plinth = 0.45f;
 constexpr int bays = 13;
 
-Mesh inTiles(Mesh mesh, float repeat) {
-    scaleUv(mesh, glm::vec2(1 / repeat));
-    return mesh;
-}
-
 struct Stones {
     int wall, column, floor;
 };
@@ -42,12 +37,9 @@ void addArcade(Glb& glb, const Stones& stone, const std::string& name, const glm
         put(roundedBox({bay, 0.12f, 0.46f}, 0.03f, 2), {x, plinth + columnHeight + 1.33f, 0});
     }
     glb.addNode(arches, row);
-    const int column = glb.addMesh(name + "_column", {{glb.addGeometry([&] {
-                                                           Mesh mesh = inTiles(lodestir::generate::column(columnHeight, columnRadius), slabSize);
-                                                           computeTangents(mesh);
-                                                           return mesh;
-                                                       }()),
-                                                       stone.column}});
+    Mesh shaft = inTiles(lodestir::generate::column(columnHeight, columnRadius), slabSize);
+    computeTangents(shaft);
+    const int column = glb.addMesh(name + "_column", shaft, stone.column);
     for (int i = 0; i <= bays; ++i) {
         const glm::vec3 foot(at * glm::vec4((float(i) - 0.5f * float(bays)) * bay, plinth, 0, 1));
         glb.addNode(name + "_column_" + std::to_string(i), column, {.translation = foot});
@@ -84,9 +76,7 @@ Glb makeColonnade() {
               water = glb.addMaterial({.name = "water", .color = {0.02f, 0.06f, 0.07f}, .roughness = 0.06f}),
               clay = glb.addMaterial({.name = "clay", .color = {0.55f, 0.24f, 0.13f}, .roughness = 0.7f}),
               soil = glb.addMaterial({.name = "soil", .color = {0.05f, 0.035f, 0.025f}});
-    Material leaf{.name = "dabs", .ior = 1};
-    leaf.doubleSided = true;
-    const int dabs = glb.addMaterial(leaf);
+    const int leaf = glb.addMaterial(dabs());
     Model ground{"lawn", {}};
     ground.add(lawn, grid(1, 1, [&](float u, float v) { return glm::vec3((u - 0.5f) * (wide + 12), 0.02f, -court * (1 - v)); }));
     glb.addNode(ground);
@@ -97,22 +87,22 @@ Glb makeColonnade() {
     const glm::vec2 stem[] = {{0.0f, 1.25f}, {0.42f, 1.30f}, {0.46f, 1.24f}, {0.12f, 1.08f}, {0.07f, 0.8f}, {0.14f, 0.4f}, {0.2f, 0.2f}};
     basin.add(stone.wall, inTiles(turned(stem, 32), 0.4f));
     glb.addNode(basin, {.translation = {0.6f, 0, -4.4f}});
-    const int orange = glb.addMesh("orange", {{glb.addGeometry(tree(9, {.height = 1.9f,
-                                                                        .spread = 0.8f,
-                                                                        .waist = 0.55f,
-                                                                        .bare = 0.36f,
-                                                                        .dabs = 900,
-                                                                        .dab = 0.10f,
-                                                                        .shade = {0.02f, 0.06f, 0.02f},
-                                                                        .light = {0.12f, 0.26f, 0.05f},
-                                                                        .accent = {0.85f, 0.35f, 0.03f}})),
-                                               dabs}});
+    const TreeForm form{.height = 1.9f,
+                        .spread = 0.8f,
+                        .waist = 0.55f,
+                        .bare = 0.36f,
+                        .dabs = 900,
+                        .dab = 0.10f,
+                        .shade = {0.02f, 0.06f, 0.02f},
+                        .light = {0.12f, 0.26f, 0.05f},
+                        .accent = {0.85f, 0.35f, 0.03f}};
+    const int orange = glb.addMesh("orange", tree(9, form), leaf);
     const glm::vec3 places[] = {{-2.0f, 0, -2.4f}, {2.9f, 0, -2.6f}, {-1.7f, 0, -6.6f}, {2.8f, 0, -6.8f}, {-4.6f, 0, -4.6f}, {5.2f, 0, -4.6f}};
     for (int i = 0; i < int(std::size(places)); ++i) {
         glb.addNode(pot("pot_" + std::to_string(i), clay, soil, 0.5f), {.translation = places[i]});
         glb.addNode("orange_" + std::to_string(i), orange, {.translation = places[i] + glm::vec3(0, 0.42f, 0), .rotation = turnY(60.0f * float(i))});
     }
-    const int flowers = glb.addMesh("flowers", {{glb.addGeometry(flowerPatch(12, 40, 0.6f, {0.78f, 0.12f, 0.10f}, {0.88f, 0.80f, 0.70f})), dabs}});
+    const int flowers = glb.addMesh("flowers", flowerPatch({"flowers", 12, {0.78f, 0.12f, 0.10f}, {0.88f, 0.80f, 0.70f}}, 40, 0.6f), leaf);
     Random random(3);
     for (int i = 0; i < 16; ++i) {
         const float turn = random.between(0, 360), x = random.between(-5.5f, 5.5f),

@@ -44,11 +44,6 @@ Stones addStones(Glb& glb) {
     return s;
 }
 
-Mesh inTiles(Mesh mesh, float repeat) {
-    scaleUv(mesh, glm::vec2(1 / repeat));
-    return mesh;
-}
-
 Mesh flat(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& down, float repeat) {
     Mesh mesh = rectangle(corner, right, down);
     scaleUv(mesh, glm::vec2(glm::length(right), glm::length(down)) / repeat);

@@ -102,9 +102,9 @@ Glb makeGlobe() {
     for (int face = 0; face < 6; ++face) append(cube, charted(face));
     const int world = glb.addMaterial(glb.dressed({.name = "map"}, paintSphere(1536, 768, map))),
               atlas = glb.addMaterial(glb.dressed({.name = "atlas"}, paintFaces()));
-    const int globe = glb.addNode("globe", glb.addMesh("globe", {{glb.addGeometry(ball), world}}),
+    const int globe = glb.addNode("globe", glb.addMesh("globe", ball, world),
                                   {.translation = {0, centre, 0}, .rotation = glm::angleAxis(glm::radians(-23.4f), glm::vec3(0, 0, 1)) * turnY(-40)});
-    glb.addLevels(globe, {{glb.addMesh("globe_cube", {{glb.addGeometry(cube), atlas}}), deepest(cube)}});
+    glb.addLevels(globe, {{glb.addMesh("globe_cube", cube, atlas), deepest(cube)}});
 
     const int brass = glb.addMaterial({.name = "brass", .color = {0.80f, 0.58f, 0.26f}, .roughness = 0.2f, .metalness = 1}),
               stand = glb.addMaterial({.name = "mahogany", .color = {0.17f, 0.055f, 0.028f}, .roughness = 0.2f});

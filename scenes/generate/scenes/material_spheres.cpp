@@ -183,17 +183,17 @@ void addSpheres(Glb& glb) {
     const int hole = glb.addMaterial(glb.dressed({.name = "perforated", .mask = true, .doubleSided = true}, paintPerforation()));
     row.put("perforated", glb.addMesh("perforated", {{row.ball, hole}}), 4, false);
     const int bulb = glb.addMaterial({.name = "bulb", .emission = {24, 13, 5}});
-    glb.addNode("bulb", glb.addMesh("bulb", {{glb.addGeometry(sphere(24, 12)), bulb}}),
+    glb.addNode("bulb", glb.addMesh("bulb", sphere(24, 12), bulb),
                 {.translation = {spacing * 0.1f, centreHeight(platformTop), frontRow}, .scale = glm::vec3(0.11f)});
 
     row.put({.name = "paint_chalk", .color = {0.76f, 0.70f, 0.58f}, .roughness = 0.95f}, 5, false);
     const int ink = glb.addMaterial({.name = "vertex_inks", .roughness = 0.22f});
-    row.put("vertex_inks", glb.addMesh("vertex_inks", {{glb.addGeometry(inkedSphere()), ink}}), 6, false);
+    row.put("vertex_inks", glb.addMesh("vertex_inks", inkedSphere(), ink), 6, false);
     const int hammered = glb.addMaterial(glb.dressed({.name = "hammered_steel"}, paintHammered()));
     row.put("hammered_steel", glb.addMesh("hammered_steel", {{row.ball, hammered}}), 7, false);
     // Every triangle of this one is a light; it needs no reflections, so fewer will do.
     const int glow = glb.addMaterial({.name = "glow", .color = glm::vec3(0.8f), .emission = {2.4f, 0.72f, 0.16f}});
-    row.put("glow", glb.addMesh("glow", {{glb.addGeometry(sphere(64, 32)), glow}}), 8, false);
+    row.put("glow", glb.addMesh("glow", sphere(64, 32), glow), 8, false);
 }
 
 Glb makeMaterialSpheres() {

@@ -33,7 +33,7 @@ bool insideRock(const glm::vec2& xz, float margin) {
 }
 
 void addRocks(Glb& glb, const Terrain& terrain, int material, const Mesh& mesh) {
-    const int rock = glb.addMesh("rock", {{glb.addGeometry(mesh), material}});
+    const int rock = glb.addMesh("rock", mesh, material);
     glb.addNode("rock", rock, {.translation = {0, 0.78f, 0}});
     struct Kin {
         glm::vec2 xz;
@@ -59,8 +59,7 @@ void addStones(Glb& glb, const Terrain& terrain, int material) {
                                  .facets = 14,
                                  .sharpness = random.between(5, 10),
                                  .relief = 0.8f};
-            meshes.push_back(
-                glb.addMesh(name + "_" + std::to_string(i), {{glb.addGeometry(Stone(seed + uint32_t(i), form).mesh(cells)), material}}));
+            meshes.push_back(glb.addMesh(name + "_" + std::to_string(i), Stone(seed + uint32_t(i), form).mesh(cells), material));
         }
         return meshes;
     };
@@ -91,7 +90,7 @@ void addPlants(Glb& glb, const Terrain& terrain) {
     const auto grow = [&](const std::string& name, const std::vector<Mesh>& meshes) {
         std::vector<int> ids;
         for (const Mesh& mesh : meshes)
-            ids.push_back(glb.addMesh(name + "_mesh_" + std::to_string(ids.size()), {{glb.addGeometry(mesh), blade}}));
+            ids.push_back(glb.addMesh(name + "_mesh_" + std::to_string(ids.size()), mesh, blade));
         return ids;
     };
     struct Spread {

@@ -31,13 +31,6 @@ float heightAt(const glm::vec2& p) {
 
 glm::vec3 onGround(float x, float z) { return {x, heightAt({x, z}), z}; }
 
-/// A matt paint, no gloss at all: an index of refraction of 1.
-Material wash(const Material& paper, const std::string& name, const glm::vec3& color) {
-    Material m = paper;
-    m.name = name, m.color = color, m.ior = 1;
-    return m;
-}
-
 void addGround(Glb& glb, int meadow, int lane) {
     Model ground{"meadow", {}};
     Mesh hill = grid(150, 150, [](float u, float v) { return onGround(-75 + 150 * u, -110 + 140 * v); });
@@ -141,7 +134,7 @@ void addHouses(Glb& glb, const Material& paper, const Material& tiles) {
 
 void addPlants(Glb& glb, int dabs) {
     Random random(17);
-    const auto add = [&](const std::string& name, const Mesh& mesh) { return glb.addMesh(name, {{glb.addGeometry(mesh), dabs}}); };
+    const auto add = [&](const std::string& name, const Mesh& mesh) { return glb.addMesh(name, mesh, dabs); };
     const int broad[] = {
         add("linden", tree(1, {})),
         add("oak", tree(2, {.height = 6,
@@ -152,15 +145,7 @@ void addPlants(Glb& glb, int dabs) {
                             .light = {0.30f, 0.34f, 0.09f},
                             .accent = {0.52f, 0.46f, 0.12f}})),
         add("maple", tree(3, {.height = 5, .spread = 1.9f, .shade = {0.20f, 0.05f, 0.03f}, .light = {0.62f, 0.22f, 0.05f}, .accent = {0.80f, 0.48f, 0.10f}}))};
-    const int cherry = add("cherry", tree(4, {.height = 4.8f,
-                                              .spread = 2.3f,
-                                              .waist = 0.5f,
-                                              .bare = 0.32f,
-                                              .dabs = 2600,
-                                              .dab = 0.15f,
-                                              .shade = {0.42f, 0.16f, 0.20f},
-                                              .light = {0.86f, 0.56f, 0.58f},
-                                              .accent = {0.90f, 0.80f, 0.76f}}));
+    const int cherry = add("cherry", tree(4, generate::cherry(4.8f, 2.3f, 2600, 0.15f)));
     const int poplar = add("poplar", tree(5, {.height = 9,
                                               .spread = 1.05f,
                                               .waist = 0.4f,
@@ -186,9 +171,8 @@ void addPlants(Glb& glb, int dabs) {
         plant(broad[random.below(3)], x, z, random.between(0.7f, 1.25f));
     }
 
-    const int patches[] = {add("poppies", flowerPatch(11, 46, 0.9f, {0.78f, 0.085f, 0.045f}, {0.85f, 0.78f, 0.62f})),
-                           add("cornflowers", flowerPatch(12, 46, 0.9f, {0.13f, 0.20f, 0.66f}, {0.62f, 0.42f, 0.72f})),
-                           add("buttercups", flowerPatch(13, 52, 0.9f, {0.86f, 0.62f, 0.06f}, {0.88f, 0.84f, 0.74f}))};
+    const auto bed = [&](const Flower& flower, int count) { return add(flower.name, flowerPatch(flower, count, 0.9f)); };
+    const int patches[] = {bed(poppies, 46), bed(cornflowers, 46), bed(buttercups, 52)};
     const int grass[] = {add("grass", grassTuft(21, {300, 0.26f, 0.55f, 0.12f})), add("tall_grass", grassTuft(22, {240, 0.42f, 0.5f, 0.3f}))};
     const auto scatter = [&](const std::string& name, const int* meshes, int kinds, int count, float low, float high) {
         for (int i = 0; i < count;) {
@@ -210,9 +194,7 @@ Glb makeWatercolour() {
     addGround(glb, glb.addMaterial(wash(paper, "meadow", glm::vec3(1))), glb.addMaterial(wash(paper, "lane", {0.80f, 0.68f, 0.50f})));
     addClouds(glb, glb.addMaterial({.name = "cloud", .color = glm::vec3(0.9f), .ior = 1}));
     addHouses(glb, paper, tiles);
-    Material leaf{.name = "dabs", .ior = 1};
-    leaf.doubleSided = true;
-    addPlants(glb, glb.addMaterial(leaf));
+    addPlants(glb, glb.addMaterial(dabs()));
     return glb;
 }
 

@@ -92,11 +92,7 @@ void addFence(Glb& glb) {
 
 void addGarden(Glb& glb) {
     const Material paper = glb.dressed({.name = "wash"}, paintWash(3, 512)), tiles = glb.dressed({.name = "roof"}, paintRoof(4, 512));
-    const auto paint = [&](const Material& picture, const std::string& name, const glm::vec3& color) {
-        Material m = picture;
-        m.name = name, m.color = color, m.ior = 1;
-        return glb.addMaterial(m);
-    };
+    const auto paint = [&](const Material& picture, const std::string& name, const glm::vec3& color) { return glb.addMaterial(wash(picture, name, color)); };
     const CottagePaints paints{paint(paper, "rose", {0.86f, 0.58f, 0.46f}),  paint(tiles, "slate", {0.30f, 0.32f, 0.40f}),
                                paint(paper, "trim", {0.88f, 0.85f, 0.78f}),  paint(paper, "cobalt", {0.10f, 0.22f, 0.52f}),
                                paint(paper, "pane", {0.075f, 0.11f, 0.17f}), paint(paper, "brick", {0.52f, 0.26f, 0.17f})};
@@ -117,30 +113,16 @@ void addGarden(Glb& glb) {
     path.add(paint(paper, "gravel", {0.80f, 0.70f, 0.54f}), way);
     glb.addNode(path);
 
-    const int dabs = [&] {
-        Material leaf{.name = "dabs", .ior = 1};
-        leaf.doubleSided = true;
-        return glb.addMaterial(leaf);
-    }();
-    const auto add = [&](const std::string& name, const Mesh& mesh) { return glb.addMesh(name, {{glb.addGeometry(mesh), dabs}}); };
-    const int cherry = add("cherry", tree(4, {.height = 4.4f,
-                                              .spread = 2.0f,
-                                              .waist = 0.5f,
-                                              .bare = 0.32f,
-                                              .dabs = 1800,
-                                              .dab = 0.16f,
-                                              .shade = {0.42f, 0.16f, 0.20f},
-                                              .light = {0.86f, 0.56f, 0.58f},
-                                              .accent = {0.90f, 0.80f, 0.76f}})),
+    const auto add = [&, dabs = glb.addMaterial(dabs())](const std::string& name, const Mesh& mesh) { return glb.addMesh(name, mesh, dabs); };
+    const int cherry = add("cherry", tree(4, generate::cherry(4.4f, 2.0f, 1800, 0.16f))),
               linden = add("linden", tree(1, {}));
     glb.addNode("cherry", cherry, {.translation = {3.0f, 0, -7.6f}});
     const glm::vec3 lindens[] = {{-8.5f, 0, -14}, {6.5f, 0, -14.5f}, {9.5f, 0, -11}, {-12, 0, -19}, {2.2f, 0, -21}, {13, 0, -22}, {-4.8f, 0, -24}};
     for (int i = 0; i < int(std::size(lindens)); ++i)
         glb.addNode("linden_" + std::to_string(i), linden,
                     {.translation = lindens[i], .rotation = turnY(70.0f * float(i)), .scale = glm::vec3(1 + 0.1f * float(i % 3))});
-    const int patches[] = {add("poppies", flowerPatch(11, 34, 0.7f, {0.78f, 0.085f, 0.045f}, {0.85f, 0.78f, 0.62f})),
-                           add("cornflowers", flowerPatch(12, 34, 0.7f, {0.13f, 0.20f, 0.66f}, {0.62f, 0.42f, 0.72f})),
-                           add("buttercups", flowerPatch(13, 38, 0.7f, {0.86f, 0.62f, 0.06f}, {0.88f, 0.84f, 0.74f}))};
+    const auto bed = [&](const Flower& flower, int count) { return add(flower.name, flowerPatch(flower, count, 0.7f)); };
+    const int patches[] = {bed(poppies, 34), bed(cornflowers, 34), bed(buttercups, 38)};
     const int grass = add("grass", grassTuft(21, {160, 0.22f, 0.5f, 0.12f}));
     Random random(5);
     for (int i = 0; i < 90; ++i) {
