@@ -74,8 +74,9 @@ Source counterPort(const Graph& graph, const Counter& counter) {
         throw Error(counter.where, error.problems().front().what, error.problems().front().hint);
     }
     const Port& port = graph.port(source);
-    const bool isNumber = port.type.kind == PortType::Kind::buffer && port.type.name == "uint" && port.count.kind == Count::Kind::fixed && port.count.number <= 2;
-    if (!isNumber) throw Error(counter.where, fmt::format("{} is no number", counter.port), "a count is read from a buffer of one uint, or of two as 64 bits");
+    const bool isCounted = port.type.kind == PortType::Kind::buffer && port.type.name == "uint";
+    if (!isCounted || port.count.kind != Count::Kind::fixed || port.count.number > 2)
+        throw Error(counter.where, fmt::format("{} is no number", counter.port), "a count is read from a buffer of one uint, or of two as 64 bits");
     return source;
 }
 

@@ -10,7 +10,7 @@ from . import ensemble_charts, error_charts, needs_charts
 class Chart:
     draw: Callable  # of results, a scene (index) where it is of one, and a metric where it is of one: a Drawing, or None where there is nothing for it
     of: str = "scene"  # "metric": one for each scene and metric; "scene": one for each scene; "count": one for each scene, metric and
-    # count; "study": one for each metric over all scenes; "whole": one
+    # count; "counts": one for each count over all scenes; "study": one for each metric over all scenes; "whole": one
 
 
 ERROR = {
@@ -29,6 +29,7 @@ ERROR = {
     "error_vs_count": Chart(needs_charts.error_vs_count, "count"),
     "needs": Chart(needs_charts.needs, "count"),
     "advantage": Chart(needs_charts.advantage, "metric"),
+    "cost_vs_model": Chart(needs_charts.cost_vs_model, "counts"),
     "outcomes": Chart(error_charts.outcomes, "whole"),
 }
 ENSEMBLE = {

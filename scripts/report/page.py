@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import jinja2
 from markupsafe import Markup
 
-from . import charts, error_charts, images, tables, words
+from . import charts, error_charts, images, needs_charts, tables, words
 from .plots import slug
 
 HERE = pathlib.Path(__file__).parent
@@ -86,6 +86,9 @@ def over_scenes(r, figures):
     drawn = [drawing for metric in r.metrics for drawing in figures.draw(error_charts.stability_matrix, r, metric)] if "stability_matrix" in chart_names(r) else []
     if drawn:
         sections.append(SimpleNamespace(id="stability-by-case", name="Stability by case", drawings=drawn, tables=[], empty=""))
+    drawn = [drawing for count in r.counts for drawing in figures.draw(needs_charts.cost_vs_model, r, count)] if "cost_vs_model" in chart_names(r) else []
+    if drawn:
+        sections.append(SimpleNamespace(id="cost-with-the-model", name="Cost with the model", drawings=drawn, tables=[], empty=""))
     files = [scene["file"] for scene in r.summary["scenes"]]
     drawn = []
     for file in dict.fromkeys(files):

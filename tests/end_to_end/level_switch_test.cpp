@@ -126,12 +126,16 @@ TEST_F(Images, CountsWhatIsShown) {
     EXPECT_EQ(allCoarse, 2 * coarse + fine);
     const auto [one, bothBytes] = counted("schedule");
     EXPECT_EQ(one, coarse + 2 * fine);
-    // A lamp of the same 800 triangles takes what a bowl takes; 84 bytes a triangle and 48 a vertex, of which there are at least half as many, and nodes.
+    // A lamp of the same 800 triangles takes what a bowl takes: 68 bytes a triangle, 48 a vertex, and 64 for each node, fewer of them than triangles.
     const std::uint64_t bowl = fineBytes / 2;
     EXPECT_EQ(bothBytes, coarseBytes + bowl);
-    EXPECT_GT(bowl, fine * (68 + 24));
-    EXPECT_LT(bowl, fine * (68 + 48 + 64));
-    EXPECT_LT(coarseBytes, bowl + bowl / 5);
+    const auto expectBytes = [&](std::uint64_t bytes, std::size_t level, std::uint64_t triangles) {
+        const std::uint64_t least = 68 * triangles + 48 * frames.scene().meshes[0].levels[level].positions.size();
+        EXPECT_GT(bytes, least);
+        EXPECT_LT(bytes, least + 64 * triangles);
+    };
+    expectBytes(bowl, 0, fine);
+    expectBytes(coarseBytes - bowl, 1, coarse);
 }
 
 // A mesh that emits stays at its finest whatever the schedule says, because lists of lights are of its triangles; one that doesn't switches.

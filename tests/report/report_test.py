@@ -17,7 +17,7 @@ import unittest
 import numpy
 import synthetic
 
-from report import charts, compare, error_charts, exr, load, plots
+from report import charts, compare, error_charts, exr, load, needs_charts, plots
 from report.command import run, write
 from report.drawing import Drawing, number, use_style
 
@@ -57,6 +57,10 @@ class ReportTest(unittest.TestCase):
         cls.root = pathlib.Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.root)
         cls.folder = cls.root / "error"
+        cls.needs = cls.root / "needs"
+        synthetic.needs_study(cls.needs, ["needs", "advantage", "error_vs_count"])
+        cls.grown = cls.root / "grown"
+        synthetic.grown_study(cls.grown, ["cost_vs_model"])
         cls.rows = synthetic.error_study(cls.folder, ["error_vs_time", "time_by_pass", "stability_matrix", "stability", "ablation"])
         assert run([str(cls.folder), "--quiet"]) == 0
         cls.page = (cls.folder / "report.html").read_text()
@@ -165,11 +169,11 @@ class ReportTest(unittest.TestCase):
 
     def test_nothing_is_clipped(self):
         """Every text of every chart lies within the figure, whose width is a paper's column."""
-        r = load(self.folder)
-        arguments_of = {"metric": (0, r.metrics[0]), "scene": (0,), "study": (r.metrics[2],), "whole": ()}
+        r, needs, grown = load(self.folder), load(self.needs), load(self.grown)
+        arguments_of = {"metric": (r, 0, r.metrics[0]), "scene": (r, 0), "study": (r, r.metrics[2]), "whole": (r,), "count": (needs, 0, needs.metrics[0], "triangles"), "counts": (grown, "triangles")}
         draw = [(chart.draw, arguments_of[chart.of]) for chart in charts.ERROR.values()]
         for chart, arguments in draw:
-            d = chart(r, *arguments)
+            d = chart(*arguments)
             d.finish()
             width, height = d.figure.get_size_inches()
             self.assertAlmostEqual(width, 3.33, places=2)
@@ -177,6 +181,35 @@ class ReportTest(unittest.TestCase):
             for inside in (box.x0, box.y0, width - box.x1, height - box.y1):
                 self.assertGreater(inside, -0.01, d.slug)
             d.close()
+
+    def test_what_a_scene_needs(self):
+        """If this fails, the wrong model is called enough, or a choice of levels is compared at another cost."""
+        r = load(self.needs)
+        metric = r.metrics[0]
+        d = needs_charts.needs(r, 0, metric, "triangles")
+        enough = re.findall(r"<title>enough: fixed, level (\d), spp (\d+):", d.svg())
+        # 1.0, 1.01, 1.2 with a sample; 0.25, 0.26, 0.45 with 4; 0.0625, 0.0725, 0.2625 with 16: a tenth more than the least is enough.
+        self.assertEqual(enough, [("1", "1"), ("1", "4"), ("0", "16")])
+        self.assertIn("squared bias 0.2 ± 0.001", d.svg(), "of the samples that tell it best")
+        d.close()
+        rows = needs_charts.advantages(r, 0, metric)
+        self.assertEqual([cost for _, cost, *_ in rows], [90, 180, 720])
+        self.assertEqual([best for _, _, best, *_ in rows], ["fixed, level 2", "fixed, level 1", "fixed, level 1"])
+        numpy.testing.assert_allclose([middle for _, _, _, middle, _ in rows], 0.9, rtol=1e-12)
+        # Two groups of four with a relative deviation of 0.01 sqrt(4/3): each mean has 0.0057735, their ratio's logarithm 0.008165, and t of 6 degrees is 2.447.
+        numpy.testing.assert_allclose([half for *_, half in rows], 0.01998, rtol=2e-3)
+        curve = [(1.0, numpy.array([2.0])), (4.0, numpy.array([1.25]))]  # 1 + 1 / cost
+        self.assertIsNone(needs_charts.error_at(0.5, curve))
+        numpy.testing.assert_allclose([needs_charts.error_at(cost, curve)[0] for cost in (1, 2, 4, 8)], [2, 1.5, 1.25, 1.125])
+
+    def test_cost_of_a_model_that_grows(self):
+        d = needs_charts.cost_vs_model(load(self.grown), "triangles")
+        found = re.findall(r"<title>(\w+), (\w+): (\d+) steps a pixel where fixed shows (\d+) triangles</title>", d.svg())
+        self.assertEqual(found, [("fixed", "small", "10", "100"), ("fixed", "large", "20", "1000"), ("chosen", "small", "9", "100"), ("chosen", "large", "9", "1000")])
+        d.close()
+        self.assertIsNone(needs_charts.cost_vs_model(load(self.needs), "triangles"), "its baseline has a knob, and there is one scene")
+        self.assertEqual(run([str(self.grown), "--quiet"]), 0)
+        self.assertIn("Cost with the model", (self.grown / "report.html").read_text())
 
     def test_selection_and_style(self):
         folder = self.root / "selected"

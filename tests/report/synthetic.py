@@ -128,6 +128,50 @@ def error_study(folder, charts):
     return rows
 
 
+NEEDS = {0: (1000, 100.0, 0.0), 1: (100, 80.0, 0.01), 2: (10, 60.0, 0.2)}  # of a level: triangles, steps of a sample, what it adds to an error of 1 / samples
+
+
+def counted_cell(scene, technique, knobs, triangles, steps, error):
+    values = [error * (1 + 0.01 * s) for s in (-1, 1, -1, 1)]
+    return {"scene": scene, "technique": technique, "knobs": knobs, "frame": 0, "seeds": SEEDS, "runs": [f"{technique} {knobs} {s}" for s in SEEDS],
+            "ms": {"median": 1.0, "fastest": 1.0, "slowest": 1.0}, "rays": {"mean": 1.0, "halfWidth": 0.0}, "passes": {},
+            "counts": {"triangles": {"mean": triangles, "halfWidth": 0.0}, "steps": {"mean": steps, "halfWidth": 0.0}},
+            "metrics": {"relmse": {**estimate(values), "values": values, "againstStart": {"mean": 1.0, "halfWidth": 0.0}}},
+            "referenceNoise": {"relmse": 0.001}, "exposure": 1.0}
+
+
+def counted_study(folder, scenes, techniques, cells, decompositions, charts):
+    summary = head("error", scenes, techniques, [0], [metric("relmse")], charts)
+    summary.update(cells=cells, decompositions=decompositions, sequences=[], comparisons=[], exponents=[], baseline="fixed", equal=None, outcomes=None, counts=["triangles", "steps"])
+    write(folder, summary, [])
+
+
+def grown_study(folder, charts):
+    """A model that grows tenfold: what is fixed costs twice as much, what is chosen the same."""
+    cells = [counted_cell(*of) for of in (("large", "fixed", {}, 1000, 20.0, 0.5), ("large", "chosen", {}, 90, 9.0, 0.5),
+                                          ("small", "fixed", {}, 100, 10.0, 0.5), ("small", "chosen", {}, 90, 9.0, 0.5))]
+    counted_study(folder, ["large", "small"], [("fixed", []), ("chosen", [])], cells, [], charts)
+
+
+def needs_study(folder, charts):
+    """Three fixed levels, and one that has a tenth less error than the best of them has at the same cost."""
+    cells, decompositions = [], []
+
+    def add(*of):
+        cells.append(counted_cell("box", *of))
+        return {name: cells[-1][name] for name in ("scene", "technique", "knobs", "frame")}
+
+    for level, (triangles, steps, bias) in NEEDS.items():
+        for samples in (1, 4, 16):
+            place = add("fixed", {"lod.level": level, "trace.spp": samples}, triangles, steps * samples, bias + 1 / samples)
+            decompositions.append({**place, "metric": "relmse", "squaredBias": {"mean": bias, "halfWidth": 0.016 / samples}, "variance": {"mean": 1 / samples, "halfWidth": 0.01}})
+    for samples in (1, 2, 8):
+        steps = 90.0 * samples
+        best = min(bias + cost / steps for _, cost, bias in NEEDS.values() if cost <= steps)
+        add("chosen", {"trace.spp": samples}, 300, steps, 0.9 * best)
+    counted_study(folder, ["box"], [("fixed", ["lod.level", "trace.spp"]), ("chosen", ["trace.spp"])], cells, decompositions, charts)
+
+
 def ensemble_study(folder):
     summary = head("ensemble", ["box"], [("same", []), ("wrong", [])], [0])
     summary.update(halfWidth=0.01, blockSize=16, batches=64, seeds=64)

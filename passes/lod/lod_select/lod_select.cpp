@@ -26,8 +26,8 @@ struct LodSelect final : Pass {
     Param<int>          level{this, "level", 0, {0, int(LEVELS) - 1}, "of fixed: what all instances show; the coarsest where a mesh has fewer"};
     Param<float>        pixelError{this, "pixelError", 0, {0, 1000}, "largest error on the screen, pixels; 0: the scene file's"};
     Param<float>        hysteresis{this, "hysteresis", 0.2f, {0, 0.9f},
-                                   "a coarser level is taken only where it stays below the limit by this share, so that levels don't flicker; of total_error: any "
-                                   "other level only where it wins this share of what the triangles between them cost"};
+                                   "so that levels don't flicker, a coarser one is taken only where it stays below the limit by this share; of total_error, "
+                                   "any other only where it wins this share of what the triangles between them cost"};
     Param<float>        samples{this, "samples", 1, {0.001f, 1e9f},
                                 "of total_error: paths a pixel that the picture is made of, those of earlier frames that it reuses included"};
     Param<float>        edges{this, "edges", 0.1f, {0, 1e6f},
@@ -54,7 +54,7 @@ struct LodSelect final : Pass {
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
         frame.reserve(shown, std::uint32_t(scene.meshes.size()) * LEVELS);
-        for (const Port* port : {static_cast<const Port*>(&shown), static_cast<const Port*>(&triangles), static_cast<const Port*>(&bytes)}) frame.fill(*port, 0);
+        for (const Port* port : std::initializer_list<const Port*>{&shown, &triangles, &bytes}) frame.fill(*port, 0);
         frame.dispatch(shader, {count, 1}, {std::uint32_t(chosen), std::bit_cast<std::uint32_t>(limit)});
     }
 
