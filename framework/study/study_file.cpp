@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <limits>
 
@@ -308,10 +309,13 @@ private:
         problems_.attempt([&] {
             if (!equal) return;
             const auto& members = equal->members("\"equal\"");
-            if (members.size() != 1 || (members[0].first != "time" && members[0].first != "rays"))
-                throw Error(equal->where(), "\"equal\" needs a \"time\" or \"rays\"", "write { \"time\": milliseconds } or { \"rays\": rays a pixel }");
+            constexpr std::array<std::string_view, 3> kinds{"time", "rays", stepsName};  // as Budget::Kind
+            const auto kind = members.size() == 1 ? std::ranges::find(kinds, members[0].first) : kinds.end();
+            if (kind == kinds.end())
+                throw Error(equal->where(), "\"equal\" needs a \"time\", \"rays\" or \"steps\"",
+                            "write { \"time\": milliseconds } or { \"rays\": rays a pixel }");
             const Json& value = members[0].second;
-            Budget budget{.kind = members[0].first == "time" ? Budget::Kind::time : Budget::Kind::rays, .where = value.where()};
+            Budget budget{.kind = Budget::Kind(kind - kinds.begin()), .where = value.where()};
             if (value.isString()) {
                 budget.technique = value.asString();
             } else {
@@ -324,6 +328,8 @@ private:
     /// Its technique is there and has a cost of its own, and some technique is given the budget.
     void checkBudget() const {
         if (!study_.equal) return;
+        if (study_.equal->kind == Budget::Kind::steps && !study_.countSteps)
+            throw Error(study_.equal->where, "steps are a budget, and aren't counted", "add \"countSteps\": true to the study");
         if (std::ranges::none_of(study_.techniques, [](const Technique& t) { return t.solve.has_value(); }))
             throw Error(study_.equal->where, "no technique has a knob for the budget", "add \"solve\": { \"pass.parameter\": [least, most] } to one");
         if (study_.equal->technique.empty()) return;

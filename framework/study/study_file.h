@@ -100,12 +100,12 @@ struct Measure {
 
 /// What every technique may cost.
 struct Budget {
-    enum class Kind { time, rays };
+    enum class Kind { time, rays, steps };
     Kind kind = Kind::time;
-    double value = 0;        ///< milliseconds a frame, or rays a pixel
+    double value = 0;        ///< milliseconds a frame, or rays or steps a pixel
     std::string technique{};   ///< or what that one costs
     Where where{};
-    std::string_view unit() const { return kind == Kind::time ? "ms" : "rays a pixel"; }
+    std::string_view unit() const { return kind == Kind::time ? "ms" : kind == Kind::rays ? "rays a pixel" : "steps a pixel"; }
 };
 
 /// What a study asks: how large errors are, or whether the mean of many runs is right.

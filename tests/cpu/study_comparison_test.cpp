@@ -197,7 +197,7 @@ TEST_F(FairStudy, TellsWhatIsWrong) {
               "no technique has a knob for the budget; add \"solve\": { \"pass.parameter\": [least, most] } to one");
     EXPECT_EQ(complaint("", solved), "there is no budget to solve for; add \"equal\" to the study");
     EXPECT_EQ(complaint(R"("equal": { "time": 0 },)", solved), "the budget must be above 0, not 0");
-    EXPECT_EQ(complaint(R"("equal": { "watts": 3 },)", solved).substr(0, 39), "\"equal\" needs a \"time\" or \"rays\"; write");
+    EXPECT_EQ(complaint(R"("equal": { "watts": 3 },)", solved).substr(0, 48), "\"equal\" needs a \"time\", \"rays\" or \"steps\"; write");
     EXPECT_EQ(complaint(R"("equal": { "rays": "solved" },)", solved).substr(0, 48), "\"solved\" has no cost of its own to give others; ");
     EXPECT_EQ(complaint(R"("equal": { "rays": 9 },)", R"("s": { "graph": "graph.json", "set": { "a.spp": 1 }, "solve": { "a.spp": [1, 64] } })").substr(0, 44),
               "\"a.spp\" is set or varied, and solved for; re");

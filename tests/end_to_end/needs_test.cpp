@@ -56,7 +56,7 @@ protected:
     inline static const std::string levels = (sourceFolder / "graphs/path_tracer_lod.json").string();
 };
 
-// With levels by their error on the screen, 64 times the triangles cost less than a tenth more steps; at its finest the model costs nearly half as much again.
+// With levels by their error on the screen, 64 times the triangles cost less than a tenth more steps; at its finest the model costs two fifths more.
 TEST_F(NeedsTest, ATenthBuysSixtyFourTimesTheTriangles) {
     auto rows = study(studyOf({"boulders_1x.json", "boulders_64x.json"}, {{"finest", technique("finest")}, {"screen error", technique("screen_error")}}));
     std::map<std::string, double> growth;
@@ -86,6 +86,28 @@ TEST_F(NeedsTest, MoreSamplesAreGivenMoreModel) {
     const OrderedJson summary = readJson(folder / "out/summary.json");
     EXPECT_EQ(summary["counts"], OrderedJson::parse(R"(["triangles", "bytes", "steps"])"));
     EXPECT_EQ(summary["cells"][0]["counts"]["triangles"]["mean"], triangles[1]);
+}
+
+// A budget is split between model and samples: what the finest levels take for 4 samples a pixel buys more samples of a coarser model, whose levels are those
+// for as many.
+TEST_F(NeedsTest, ABudgetIsSplitBetweenModelAndSamples) {
+    OrderedJson chosen = technique("total_error", {{"alike", {{"lod.samples", "trace.spp"}}}, {"solve", {{"trace.spp", {1, 64}}}}});
+    chosen["set"].erase("trace.spp");
+    OrderedJson json = studyOf({"boulders_64x.json"}, {{"finest", technique("finest")}, {"total error", chosen}});
+    json["equal"] = {{"steps", "finest"}};
+    const auto rows = study(json);
+    const OrderedJson& row = rows.at("total error").front();
+    const int samples = row["knobs"]["trace.spp"];
+    const double given = counted(rows.at("finest"), "steps").front(), taken = counted(rows.at("total error"), "steps").front();
+    std::printf("%d samples a pixel for %.1f of %.1f steps\n", samples, taken, given);
+    EXPECT_GE(samples, 5);
+    EXPECT_LE(samples, 8);
+    EXPECT_NEAR(taken, given, 0.6 * given / samples) << "half of what a sample costs";
+    json["countSteps"] = false;
+    write("study.json", json);
+    const Output output = lodestir({"study", (folder / "study.json").string(), "--out", (folder / "none").string()});
+    EXPECT_EQ(output.exitCode, 1);
+    EXPECT_NE(output.err.find("add \"countSteps\": true"), std::string::npos) << output.err;
 }
 
 TEST_F(NeedsTest, WhatIsNoNumberIsRefused) {

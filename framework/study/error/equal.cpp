@@ -29,14 +29,23 @@ struct Configuration {
     std::string key, name;  ///< name: hash of all that its cost depends on
 };
 
-/// Milliseconds, or rays a pixel, of the measured frames.
+double costOf(const StagedFrame& frame, Budget::Kind kind, double pixels) {
+    switch (kind) {
+        case Budget::Kind::time: return frame.report.milliseconds;
+        case Budget::Kind::rays: return raysOf(frame.report) / pixels;
+        case Budget::Kind::steps: return frame.counts.at(std::string(stepsName));
+    }
+    return 0;
+}
+
+/// In the budget's unit, of the measured frames.
 double costOf(Stage& stage, const Study& study, StudyRun run) {
     std::vector<double> costs;
-    const bool time = study.equal->kind == Budget::Kind::time;
-    for (int i = 0; i < (time ? timings : 1); ++i) {
+    const Budget::Kind kind = study.equal->kind;
+    for (int i = 0; i < (kind == Budget::Kind::time ? timings : 1); ++i) {
         double sum = 0;
         const std::vector<StagedFrame> frames = stage.render(run);
-        for (const StagedFrame& frame : frames) sum += time ? frame.report.milliseconds : raysOf(frame.report) / study.scenes[run.scene].pixels();
+        for (const StagedFrame& frame : frames) sum += costOf(frame, kind, study.scenes[run.scene].pixels());
         costs.push_back(sum / double(frames.size()));
     }
     return medianOf(costs);

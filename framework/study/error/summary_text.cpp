@@ -58,13 +58,23 @@ private:
         for (const Cell& cell : summary_.cells) {
             if (cell.scene != scene || !cell.budget || cell.seeds == 0) continue;
             const BudgetMet& met = *cell.budget;
-            const double took = study_.equal->kind == Budget::Kind::time ? cell.milliseconds : cell.rays.mean / study_.scenes[scene].pixels();
+            const double took = costOf(cell, scene);
             text += start(cell) + fmt::format(" {:.4g} when chosen, {:.4g} measured ({:+.1f} %){}\n", met.reached, took, 100 * (took / met.budget - 1),
                                               met.inRange ? "" : ": the budget is out of its knob's range");
         }
         if (text.empty()) return text;
         const double budget = std::ranges::find_if(summary_.cells, [&](const Cell& c) { return c.scene == scene && c.budget; })->budget->budget;
         return fmt::format("  given {:.4g} {}\n", budget, study_.equal->unit()) + text;
+    }
+
+    /// In the budget's unit.
+    double costOf(const Cell& cell, std::size_t scene) const {
+        switch (study_.equal->kind) {
+            case Budget::Kind::time: return cell.milliseconds;
+            case Budget::Kind::rays: return cell.rays.mean / study_.scenes[scene].pixels();
+            case Budget::Kind::steps: return cell.counts.at(std::string(stepsName)).mean;
+        }
+        return 0;
     }
 
     std::string row(const Comparison& comparison, const std::string& label) const {
