@@ -67,6 +67,8 @@ def needs(r, scene, metric, count):
     drawn["geometry alone"] = ((len(drawn),), [best[x][1] for x in sorted(best)])
     d = Drawing(slug(r.scenes[scene], f"needs_{count}", metric["name"]), f"What the scene needs: {metric['name']} against {count}{at_frame(r, frame)}")
     draw_points(d, drawn, count + (" a pixel" if count == "steps" else ""), with_unit(metric), True, True)
+    least = min(p.y for points in curves.values() for p in points if p.y > 0)
+    d.axes.set_ylim(bottom=max(d.axes.get_ylim()[0], least / 30))  # further down the model is as good as the finest
     for (place, points) in list(drawn.values())[:-1]:
         found = knee([p for p in points if p.y > 0])
         (mark,) = d.axes.plot([found.x], [found.y], marker="o", markersize=9, markerfacecolor="none", markeredgecolor=curve_style(*place)["color"], linestyle="none")
@@ -171,7 +173,7 @@ def advantage(r, scene, metric):
         return None
     frame = shown_frame(r, metric)
     d = Drawing(slug(r.scenes[scene], "advantage", metric["name"]), f"{metric['name']} against the best of {r.summary['baseline']}{at_frame(r, frame)}")
-    draw_points(d, curves, cost_name(r), f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, False)
+    draw_points(d, curves, cost_name(r), f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, True)
     d.axes.axhline(1, color=GREY, linewidth=0.8, zorder=1)
     d.note += "Below 1: nearer than any of them at equal cost, which is taken between measured ones. Lines: 95 %."
     return d
