@@ -10,10 +10,10 @@ from .results import configuration_of
 ENOUGH = 1.1  # times the least error: what no eye asks more for
 
 
-def point_of(r, scene, c, frame, metric, count, text=""):
+def point_of(r, scene, c, frame, metric, count):
     error, half = r.error[metric["name"]][scene, c, frame], r.half_width[metric["name"]][scene, c, frame]
     x = r.counts[count][scene, c, frame]
-    return Point(x, error, f"{r.labels[c]}: {number(x)} {count}, {metric['name']} {with_interval(error, half)}", (error - half, error + half), label=text)
+    return Point(x, error, f"{r.labels[c]}: {number(x)} {count}, {metric['name']} {with_interval(error, half)}", (error - half, error + half))
 
 
 def measured_at(r, scene, frame):
