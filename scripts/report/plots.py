@@ -21,6 +21,10 @@ def with_unit(metric):
     return metric["name"] + (f" ({metric['unit']})" if metric["unit"] else "")
 
 
+def count_with_unit(count):
+    return count + (" a pixel" if count == "steps" else "")
+
+
 def at_frame(r, frame):
     return f", frame {r.frames[frame]}" if len(r.frames) > 1 else ""
 
