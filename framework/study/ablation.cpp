@@ -5,6 +5,7 @@
 #include <framework/study/ablation.h>
 #include <framework/study/measured_port.h>
 #include <framework/study/pixel_filter.h>
+#include <framework/study/run_list.h>
 
 #include <fmt/format.h>
 
@@ -84,8 +85,8 @@ public:
 private:
     Graph build(const StudyGraph& choice) {
         const StudyScene& scene = study_.scenes.front();
-        return renderer_.build(choice.graph, {.scene = std::filesystem::absolute(scene.file), .size = scene.size, .set = choice.set, .variant = choice.variant,
-                                              .variantWhere = choice.variantWhere, .patches = choice.patches});
+        return renderer_.build(choice.graph, {.scene = std::filesystem::absolute(scene.file), .size = scene.size, .set = settingsOf(choice, {}),
+                                              .variant = choice.variant, .variantWhere = choice.variantWhere, .patches = choice.patches});
     }
 
     /// The technique without these parts, unless that can't be.
@@ -98,8 +99,10 @@ private:
             less.graph.patches.push_back(part->patch);
             names += (names.empty() ? "" : " and ") + part->name;
             less.ablation->parts.push_back(part->name);
-            // What is set by the study comes behind the patch, and would turn it on again.
-            std::erase_if(less.graph.set, [&](const Setting& setting) { return setting.name == part->name; });
+            // What is set by the study comes behind the patch, and would turn it on again; what takes its value goes with it.
+            for (Setting& setting : less.graph.set)
+                if (setting.name == part->name) setting.value = Json(false);
+            std::erase_if(less.graph.alike, [&](const auto& alike) { return alike.first == part->name; });
         }
         less.name = technique.name + " without " + names;
         const auto refuse = [&](const std::string& why) {
@@ -110,6 +113,7 @@ private:
             const Graph graph = build(less.graph);
             if (!technique.otherFilter && filtersOf(graph, measuredPort(graph, less.graph)) != filters_)
                 return refuse("it would see through other places of the pixel or lens");
+            for (const Counter& counter : study_.counters) counterPort(graph, counter);
         } catch (const Error& error) {
             return refuse(error.problems().front().what);
         }

@@ -10,4 +10,7 @@ namespace lodestir {
 /// there is none of that name.
 Source measuredPort(const Graph& graph, const StudyGraph& choice);
 
+/// The port of a counter. Error where there is none of that name, or it holds no number.
+Source counterPort(const Graph& graph, const Counter& counter);
+
 }  // namespace lodestir

@@ -23,6 +23,16 @@ std::vector<std::vector<Setting>> combinations(const Technique& technique) {
     return all;
 }
 
+std::vector<Setting> settingsOf(const StudyGraph& choice, const std::vector<Setting>& knobs) {
+    std::vector<Setting> settings = choice.set;
+    settings.insert(settings.end(), knobs.begin(), knobs.end());
+    const std::size_t given = settings.size();
+    for (const auto& [name, from] : choice.alike)
+        for (std::size_t i = 0; i < given; ++i)
+            if (settings[i].name == from) settings.push_back({name, settings[i].value});
+    return settings;
+}
+
 std::vector<StudyRun> expandRuns(const Study& study) {
     std::vector<StudyRun> runs;
     for (std::size_t scene = 0; scene < study.scenes.size(); ++scene)

@@ -21,6 +21,9 @@ struct StudyRun {
 /// Every combination of a technique's knob values, the last knob fastest.
 std::vector<std::vector<Setting>> combinations(const Technique& technique);
 
+/// What a graph's parameters are given: what is set, the knobs, and to those of "alike" the value of another one.
+std::vector<Setting> settingsOf(const StudyGraph& choice, const std::vector<Setting>& knobs);
+
 /// The seed that a technique with knob values draws for one of the study's. Paired, it is the study's own: differences between techniques can
 /// be taken run by run, but what all of them show alike is one observation. Else it lies at a distance that follows from the technique's
 /// name and knobs, below the seeds of references; without some of its parts a technique draws what the whole draws.

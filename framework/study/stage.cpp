@@ -57,29 +57,6 @@ Json placed(Json value, const Where& where) {
     return value;
 }
 
-/// Gives parameters the values that others are given.
-void addAlike(std::vector<Setting>& set, const std::vector<std::pair<std::string, std::string>>& alike) {
-    for (const auto& [name, from] : alike) {
-        const auto given = std::ranges::find(set.rbegin(), set.rend(), from, &Setting::name);
-        if (given != set.rend()) set.push_back({name, given->value});
-    }
-}
-
-/// The port of a counter; Error where it holds no number.
-Source counterPort(const Graph& graph, const Counter& counter) {
-    Source source;
-    try {
-        source = findSource(graph, counter.port);
-    } catch (const Error& error) {
-        throw Error(counter.where, error.problems().front().what, error.problems().front().hint);
-    }
-    const Port& port = graph.port(source);
-    const bool isCounted = port.type.kind == PortType::Kind::buffer && port.type.name == "uint";
-    if (!isCounted || port.count.kind != Count::Kind::fixed || port.count.number > 2)
-        throw Error(counter.where, fmt::format("{} is no number", counter.port), "a count is read from a buffer of one uint, or of two as 64 bits");
-    return source;
-}
-
 /// But for the frame that they belong to.
 bool sameView(CameraKey a, const CameraKey& b) {
     a.frame = b.frame;
@@ -106,15 +83,13 @@ Stage::Stage(const Study& study, const RendererOptions& options) : study_(study)
 Stage::~Stage() = default;
 
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
-    GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
+    const GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
                          .size = study_.scenes[scene].size,
                          .seed = seed,
-                         .set = choice.set,
+                         .set = settingsOf(choice, knobs),
                          .variant = choice.variant,
                          .variantWhere = choice.variantWhere,
                          .patches = choice.patches};
-    options.set.insert(options.set.end(), knobs.begin(), knobs.end());
-    addAlike(options.set, choice.alike);
     StagedGraph staged{.graph = renderer_.build(choice.graph, options)};
     staged.port = measuredPort(staged.graph, choice);
     const Port& port = staged.graph.port(staged.port);

@@ -221,15 +221,6 @@ private:
         });
         if (const Json* port = fields.find("port")) graph.portWhere = port->where();
         fields.text("port", graph.port);
-        if (const Json* alike = fields.find("alike"))
-            problems_.attempt([&] {
-                for (const auto& [name, other] : alike->members("\"alike\"")) {
-                    const std::string& from = other.asString("a parameter");
-                    checkedName(name, other, other.keyWhere());
-                    checkedName(from, other, other.where());
-                    graph.alike.emplace_back(name, from);
-                }
-            });
         if (const Json* set = fields.find("set"))
             problems_.attempt([&] {
                 for (const auto& [name, setting] : set->members("\"set\"")) graph.set.push_back({checkedName(name, setting, setting.keyWhere()), setting});
@@ -313,7 +304,7 @@ private:
             const auto kind = members.size() == 1 ? std::ranges::find(kinds, members[0].first) : kinds.end();
             if (kind == kinds.end())
                 throw Error(equal->where(), "\"equal\" needs a \"time\", \"rays\" or \"steps\"",
-                            "write { \"time\": milliseconds } or { \"rays\": rays a pixel }");
+                            "write { \"time\": milliseconds }, { \"rays\": rays a pixel } or { \"steps\": steps a pixel }");
             const Json& value = members[0].second;
             Budget budget{.kind = Budget::Kind(kind - kinds.begin()), .where = value.where()};
             if (value.isString()) {
@@ -393,10 +384,33 @@ private:
                         problems_.add(value.where(), fmt::format("technique \"{}\" can't be both right and wrong", name),
                                       "\"control\" is known to be unbiased, \"planted\" to be biased");
                 }
+                if (const Json* alike = fields.find("alike")) problems_.attempt([&] { readAlike(*alike, technique); });
                 fields.finish();
                 study_.techniques.push_back(std::move(technique));
             }
         });
+    }
+
+    /// Behind all that gives parameters values, because each of these takes one of those.
+    void readAlike(const Json& alike, Technique& technique) {
+        std::vector<std::string> given;
+        for (const Setting& setting : technique.graph.set) given.push_back(setting.name);
+        for (const Knob& knob : technique.vary) given.push_back(knob.name);
+        if (technique.solve) given.push_back(technique.solve->name);
+        for (const Json::Member& member : alike.members("\"alike\""))
+            problems_.attempt([&] {
+                const auto& [name, value] = member;
+                const std::string& from = value.asString("a parameter");
+                checkedName(name, value, value.keyWhere());
+                if (std::ranges::find(given, name) != given.end())
+                    throw Error(value.keyWhere(), fmt::format("\"{}\" is given a value, and takes that of \"{}\"", name, from), "remove one of them");
+                if (std::ranges::find(given, from) == given.end()) {
+                    const std::string meant = didYouMean(from, given);
+                    throw Error(value.where(), fmt::format("\"{}\" is given no value that \"{}\" could take", from, name),
+                                meant.empty() ? "give it one with \"set\", \"vary\" or \"solve\"" : meant);
+                }
+                technique.graph.alike.emplace_back(name, from);
+            });
     }
 
     void readVary(const Json& vary, Technique& technique) {

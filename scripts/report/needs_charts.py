@@ -4,7 +4,7 @@ import numpy
 
 from .drawing import GREY, Drawing, curve_style, number, with_interval
 from .error_charts import shown_frame
-from .plots import Point, at_frame, devices, draw_points, slug, with_unit
+from .plots import Point, at_frame, count_with_unit, devices, draw_points, slug, with_unit
 from .results import configuration_of
 
 ENOUGH = 1.1  # times the least error: what no eye asks more for
@@ -26,7 +26,7 @@ def error_vs_count(r, scene, metric, count):
         curve = r.configurations[c].curve
         curves.setdefault(curve, ((r.place[r.labels[c]][0],), []))[1].append(point_of(r, scene, c, frame, metric, count))
     d = Drawing(slug(r.scenes[scene], f"error_vs_{count}", metric["name"]), f"{metric['name']} against {count}{at_frame(r, frame)}")
-    return draw_points(d, curves, count + (" a pixel" if count == "steps" else ""), with_unit(metric), True, metric["fromZero"])
+    return draw_points(d, curves, count_with_unit(count), with_unit(metric), True, metric["fromZero"])
 
 
 def geometry_of(r, scene, frame, metric):
@@ -37,16 +37,17 @@ def geometry_of(r, scene, frame, metric):
 
 
 def knee(points):
-    """The point with the least x whose y is within ENOUGH of the least."""
-    least = min(p.y for p in points)
-    return min((p for p in points if p.y <= ENOUGH * least), key=lambda p: p.x)
+    """The point with the least x whose y is within ENOUGH of the least; None where no point has a place on the axes."""
+    points = [p for p in points if p.x > 0 and p.y > 0]
+    least = min((p.y for p in points), default=None)
+    return min((p for p in points if p.y <= ENOUGH * least), key=lambda p: p.x, default=None)
 
 
 def needs(r, scene, metric, count):
     """Of the baseline, which has a knob for the model and, last, one for the effort: the error against the size of the model, a curve an effort, and what of
     it is the model's. Of each curve the least model that is enough is marked."""
-    frame, curves, model = shown_frame(r, metric), {}, []
-    bias = geometry_of(r, scene, frame, metric)
+    frame, curves = shown_frame(r, metric), {}
+    bias, geometry = geometry_of(r, scene, frame, metric), {}  # of each model where the effort tells it best
     for c in measured_at(r, scene, frame):
         configuration = r.configurations[c]
         if configuration.technique != r.summary["baseline"] or len(configuration.knobs) < 2:
@@ -56,22 +57,26 @@ def needs(r, scene, metric, count):
         if configuration in bias:
             mean, half = bias[configuration]
             about = f"{configuration.curve}: {number(r.counts[count][scene, c, frame])} {count}, squared bias {with_interval(mean, half)}"
-            model.append((half, Point(r.counts[count][scene, c, frame], mean, about, (mean - half, mean + half))))
-    if not curves or not metric["fromZero"]:
+            told = half if numpy.isfinite(half) else numpy.inf
+            if configuration.curve not in geometry or told < geometry[configuration.curve][0]:
+                geometry[configuration.curve] = told, Point(r.counts[count][scene, c, frame], mean, about, (mean - half, mean + half))
+    if not curves or not metric["fromZero"] or count == "steps":  # which are the effort's as well
         return None
     drawn = {f"all, {effort}": ((i,), sorted(points, key=lambda p: p.x)) for i, (effort, points) in enumerate(curves.items())}
-    best = {}  # of each model the effort that tells its bias best
-    for half, point in model:
-        if point.x not in best or half < best[point.x][0]:
-            best[point.x] = half, point
-    drawn["geometry alone"] = ((len(drawn),), [best[x][1] for x in sorted(best)])
+    efforts = list(drawn.values())
+    if geometry:
+        drawn["geometry alone"] = ((len(drawn),), sorted((point for _, point in geometry.values()), key=lambda p: p.x))
     d = Drawing(slug(r.scenes[scene], f"needs_{count}", metric["name"]), f"What the scene needs: {metric['name']} against {count}{at_frame(r, frame)}")
-    draw_points(d, drawn, count + (" a pixel" if count == "steps" else ""), with_unit(metric), True, True)
-    least = min(p.y for points in curves.values() for p in points if p.y > 0)
-    d.axes.set_ylim(bottom=max(d.axes.get_ylim()[0], least / 30))  # further down the model is as good as the finest
-    for (place, points) in list(drawn.values())[:-1]:
-        found = knee([p for p in points if p.y > 0])
-        (mark,) = d.axes.plot([found.x], [found.y], marker="o", markersize=9, markerfacecolor="none", markeredgecolor=curve_style(*place)["color"], linestyle="none")
+    draw_points(d, drawn, count_with_unit(count), with_unit(metric), True, True)
+    low, high = d.axes.get_ylim()
+    least = min((p.y for points in curves.values() for p in points if p.y > 0), default=high)
+    d.axes.set_ylim(max(low, least / 30), high)  # further down the model is as good as the finest
+    for place, points in efforts:
+        found = knee(points)
+        if not found:
+            continue
+        color = curve_style(*place)["color"]
+        (mark,) = d.axes.plot([found.x], [found.y], marker="o", markersize=9, markerfacecolor="none", markeredgecolor=color, linestyle="none")
         d.hint(mark, f"enough: {found.about}")
     d.note += f"Circles: the least {count} whose error is within {round(100 * (ENOUGH - 1))} % of the curve's least."
     return d
@@ -107,16 +112,18 @@ def cost_of(r, scene, c, frame):
 
 def error_at(cost, points):
     """Of one curve, seed by seed: errors at a cost, between measured ones. Error is a + b / cost where samples are independent, so that it is straight over
-    1 / cost. None where nothing so cheap was measured."""
+    1 / cost; beyond the dearest it goes on along the last one, but never faster than 1 / cost itself falls. None where nothing so cheap was measured,
+    and where a single point tells of no line."""
     points = sorted(points, key=lambda p: p[0])
-    if cost < points[0][0] * (1 - 1e-9):
+    if abs(cost - points[0][0]) <= 1e-9 * cost:
+        return points[0][1]
+    if cost < points[0][0] or len(points) == 1:
         return None
     after = next((i for i, (x, _) in enumerate(points) if x >= cost), len(points) - 1)
-    if after == 0 or len(points) == 1:
-        return points[0][1]
     (x0, y0), (x1, y1) = points[after - 1], points[after]
     share = (1 / x0 - 1 / cost) / (1 / x0 - 1 / x1)
-    return y0 + share * (y1 - y0)
+    on_line, unbiased = y0 + share * (y1 - y0), y1 * x1 / cost
+    return unbiased if cost > x1 and numpy.nansum(on_line - unbiased) < 0 else on_line
 
 
 def advantages(r, scene, metric, frame=None):
@@ -133,10 +140,10 @@ def advantages(r, scene, metric, frame=None):
             continue
         cost = cost_of(r, scene, c, frame)
         found = {curve: error_at(cost, points) for curve, points in curves.items()}
-        found = {curve: errors for curve, errors in found.items() if errors is not None}
-        if not found:
+        means = {curve: numpy.mean(errors[numpy.isfinite(errors)]) for curve, errors in found.items() if errors is not None and numpy.isfinite(errors).any()}
+        best = min((curve for curve in means if means[curve] > 0), key=means.get, default=None)  # nothing is a multiple of an error at the noise's edge
+        if best is None:
             continue
-        best = min(found, key=lambda curve: numpy.nanmean(found[curve]))
         rows.append((c, cost, best, *ratio(values[scene, c, frame], found[best])))
     return rows
 
@@ -151,6 +158,8 @@ def student(freedom):
 def ratio(mine, other):
     """Of means of independent runs, and half of the 95 % interval of its logarithm (Welch)."""
     mine, other = mine[numpy.isfinite(mine)], other[numpy.isfinite(other)]
+    if not len(mine):
+        return numpy.nan, numpy.nan
     middle = numpy.mean(mine) / numpy.mean(other)
     if min(len(mine), len(other)) < 2:
         return middle, numpy.nan
@@ -175,5 +184,5 @@ def advantage(r, scene, metric):
     d = Drawing(slug(r.scenes[scene], "advantage", metric["name"]), f"{metric['name']} against the best of {r.summary['baseline']}{at_frame(r, frame)}")
     draw_points(d, curves, cost_name(r), f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, True)
     d.axes.axhline(1, color=GREY, linewidth=0.8, zorder=1)
-    d.note += "Below 1: nearer than any of them at equal cost, which is taken between measured ones. Lines: 95 %."
+    d.note += "Below 1: nearer than any of them at equal cost, which is taken between measured ones or just beyond. Lines: 95 %."
     return d

@@ -21,6 +21,10 @@ def with_unit(metric):
     return metric["name"] + (f" ({metric['unit']})" if metric["unit"] else "")
 
 
+def count_with_unit(count):
+    return count + (" a pixel" if count == "steps" else "")
+
+
 def at_frame(r, frame):
     return f", frame {r.frames[frame]}" if len(r.frames) > 1 else ""
 
@@ -71,7 +75,7 @@ def draw_points(d, curves, x_label, y_label, log_x, log_y, frames=False):
         d.note = "Bands: 95 % intervals. "
     if hidden:
         what, stands = ("point has", "stands") if hidden == 1 else ("points have", "stand")
-        d.note += f"{hidden} {what} no place on these axes and {stands} in the table only."
+        d.note += f"{hidden} {what} no place on these axes and {stands} in the table only. "
     return d
 
 

@@ -7,7 +7,7 @@ import numpy
 from .drawing import number
 from .ensemble_charts import ensemble_cells, ensemble_label
 from .error_charts import baseline_of, span_text
-from .plots import slug
+from .plots import count_with_unit, slug
 from .results import configuration_of, real
 
 
@@ -45,19 +45,20 @@ def errors(r, s):
         at = s, c, f
         span = f"{number(r.ms_range[at][0])} – {number(r.ms_range[at][1])}"
         row = [cell(r.labels[c]), cell(str(r.frames[f])), cell(str(len(found["seeds"]))), plain(r.ms[at]), cell(span), plain(r.rays[at])]
+        row += [plain(values[at]) for values in r.counts.values()]
         rows.append(row + [measured(r.error[m["name"]][at], r.half_width[m["name"]][at]) for m in r.metrics])
         noise = noise or found["referenceNoise"]
-    head = ["technique", "frame", "seeds", "ms", "fastest – slowest", "rays a pixel"] + [m["name"] for m in r.metrics]
+    head = ["technique", "frame", "seeds", "ms", "fastest – slowest", "rays a pixel"] + [count_with_unit(count) for count in r.counts] + [m["name"] for m in r.metrics]
     taken = ", ".join(f"{name} {number(real(value), 3)}" for name, value in noise.items())
     return table(f"table.{slug(r.scenes[s])}", head, rows, f"Noise of the reference itself, taken out above: {taken}." if taken else "")
 
 
 def budgets(r, s):
-    rows, unit = [], r.summary.get("equal")
+    rows, unit = [], ""
     for place, c, f, found in r.measured():
         if place == s and "budget" in found:
-            met = found["budget"]
-            took = r.ms[s, c, f] if unit == "ms" else r.rays[s, c, f]
+            met, unit = found["budget"], r.summary["equal"]
+            took = {"ms": r.ms, "rays a pixel": r.rays, "steps a pixel": r.counts.get("steps")}[unit][s, c, f]
             range_ = words("" if met["inRange"] else "out of its knob's range")
             rows.append([cell(r.labels[c]), cell(str(r.frames[f])), plain(met["given"]), plain(met["reached"]), plain(took), range_])
     return table(f"budget.{slug(r.scenes[s])}", ["technique", "frame", f"given ({unit})", "when chosen", "measured", ""], rows, title="Equal budgets")

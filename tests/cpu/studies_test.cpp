@@ -105,6 +105,59 @@ TEST(Combinations, HoldEveryPairOfTechniques) {
         }
 }
 
+class AblationTest : public FolderTest {
+protected:
+    /// The study of one technique, with what is made of it.
+    Study study(const char* graph, const OrderedJson& more) {
+        OrderedJson technique{{"graph", (sourceFolder / "graphs" / graph).string()}, {"ablate", "auto"}};
+        OrderedJson json{{"format", 1},
+                         {"scenes", {(sourceFolder / "scenes/cornell.json").string()}},
+                         {"reference", {{"graph", (sourceFolder / "graphs/path_tracer.json").string()}, {"spp", 64}}},
+                         {"seeds", 1}};
+        technique.update(more["technique"]);
+        json["techniques"]["whole"] = technique;
+        json.update(more["study"]);
+        writeFile(folder / "study.json", json.dump(1));
+        Study study = loadStudy(folder / "study.json");
+        Renderer renderer;
+        expandAblations(study, renderer);
+        return study;
+    }
+    static std::vector<std::string> namesOf(const Study& study) {
+        std::vector<std::string> names;
+        for (const Technique& technique : study.techniques) names.push_back(technique.name);
+        return names;
+    }
+};
+
+// If this fails, a part that another parameter turns on is told to be worth nothing, because it was never away.
+TEST_F(AblationTest, WhatTakesAnothersValueIsTurnedOffToo) {
+    const OrderedJson technique{{"set", {{"initial.forcedNee", true}}}, {"alike", {{"initial.roulette", "initial.forcedNee"}}}};
+    const Study made = study("restir_pt.json", {{"technique", technique}, {"study", OrderedJson::object()}});
+    Stage stage(made, {});
+    const auto parameters = [&](const std::string& name) {
+        const std::vector<std::string> names = namesOf(made);
+        const auto place = std::size_t(std::ranges::find(names, name) - names.begin());
+        const Graph graph = stage.build(made.techniques.at(place).graph, {}, 0, 1).graph;
+        const nlohmann::json set = nlohmann::json::parse(graph.resolved().dump(-1))["passes"]["initial"]["set"];
+        return std::pair(set["forcedNee"].get<bool>(), set["roulette"].get<bool>());
+    };
+    EXPECT_EQ(parameters("whole"), std::pair(true, true));
+    EXPECT_EQ(parameters("whole without initial.roulette"), std::pair(true, false));
+    EXPECT_EQ(parameters("whole without initial.forcedNee"), std::pair(false, false));
+}
+
+// If this fails, a study of parts that counts what one of them makes can't be run at all.
+TEST_F(AblationTest, APartThatIsCountedStays) {
+    const OrderedJson counts{{"counts", {{"ends", "temporal.cursor"}}}};
+    const std::vector<std::string> all = namesOf(study("restir_lod.json", {{"technique", OrderedJson::object()}, {"study", OrderedJson::object()}}));
+    const std::vector<std::string> counted = namesOf(study("restir_lod.json", {{"technique", OrderedJson::object()}, {"study", counts}}));
+    EXPECT_TRUE(std::ranges::count(all, "whole without temporal"));
+    EXPECT_FALSE(std::ranges::count(counted, "whole without temporal"));
+    EXPECT_TRUE(std::ranges::count(counted, "whole without spatial"));
+    EXPECT_EQ(complaintOf(folder / "study.json"), "");
+}
+
 class FilterTest : public FolderTest {
 protected:
     static Path graph(const char* file) { return sourceFolder / "graphs" / file; }

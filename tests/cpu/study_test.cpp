@@ -133,6 +133,30 @@ TEST_F(StudyTest, WhatIsMissingIsSaid) {
     EXPECT_EQ(said.size(), 5u) << all;
 }
 
+// If this fails, a parameter that was to follow another keeps its default, and nothing is said.
+TEST_F(StudyTest, AParameterTakesTheValueOfAnother) {
+    const auto text = [&](const std::string& alike) {
+        std::string changed = good;
+        const std::string plain = R"("vary": { "a.mode": ["x", "y"], "a.spp": [1, 2, 4] })";
+        return changed.replace(changed.find(plain), plain.size(), plain + R"(, "set": { "a.on": true }, "alike": { )" + alike + " }");
+    };
+    const Study study = loadStudy(write(text(R"("b.samples": "a.spp", "b.on": "a.on")")));
+    const StudyRun run = expandRuns(study)[1];
+    std::string given;
+    for (const Setting& setting : settingsOf(study.techniques[0].graph, run.knobs)) given += setting.name + "=" + setting.value.dump(-1) + " ";
+    EXPECT_EQ(given, R"(a.on=true a.mode="x" a.spp=2 b.samples=2 b.on=true )");
+
+    const auto said = [&](const std::string& alike) {
+        const std::vector<std::string> lines = complaints(text(alike));
+        return lines.empty() ? std::string() : lines.front().substr(lines.front().find(": ") + 2);
+    };
+    EXPECT_EQ(said(R"("b.samples": "a.sp")"), R"("a.sp" is given no value that "b.samples" could take; did you mean "a.spp"?)");
+    EXPECT_EQ(said(R"("a.spp": "b.samples")"), R"("a.spp" is given a value, and takes that of "b.samples"; remove one of them)") << "the names swapped";
+    EXPECT_EQ(said(R"("a.spp": "a.spp")"), R"("a.spp" is given a value, and takes that of "a.spp"; remove one of them)");
+    EXPECT_EQ(said(R"("b": "a.spp")"), R"("b" names no parameter; write "pass.parameter")");
+    EXPECT_EQ(said(R"("b.samples": "a.spp", "c.samples": "b.samples")").substr(0, 58), R"("b.samples" is given no value that "c.samples" could take;)");
+}
+
 // If this fails, a study of four long lists takes all memory before it says anything.
 TEST_F(StudyTest, TooManyRunsAreRefused) {
     std::string values = "1";

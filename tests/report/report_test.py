@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import numpy
 import synthetic
@@ -201,6 +202,65 @@ class ReportTest(unittest.TestCase):
         curve = [(1.0, numpy.array([2.0])), (4.0, numpy.array([1.25]))]  # 1 + 1 / cost
         self.assertIsNone(needs_charts.error_at(0.5, curve))
         numpy.testing.assert_allclose([needs_charts.error_at(cost, curve)[0] for cost in (1, 2, 4, 8)], [2, 1.5, 1.25, 1.125])
+        steep = [(1.0, numpy.array([2.0])), (2.0, numpy.array([0.5]))]  # its line is below 0 at 3 and more; what falls as 1 / cost is 1 / cost there
+        numpy.testing.assert_allclose([needs_charts.error_at(cost, steep)[0] for cost in (1.5, 2, 4)], [1, 0.5, 0.25])
+        self.assertIsNone(needs_charts.error_at(2, curve[:1]), "one cost tells nothing of another")
+        self.assertEqual(needs_charts.error_at(1, curve[:1])[0], 2)
+
+    def test_errors_below_nothing(self):
+        """Errors less the reference's noise may fall below 0, runs may be single or have no such error. If this fails, one such study has no report."""
+        def drawn(change):
+            folder = self.root / "below"
+            shutil.rmtree(folder, ignore_errors=True)
+            synthetic.needs_study(folder, [])
+            summary = json.loads((folder / "summary.json").read_text())
+            change(summary)
+            (folder / "summary.json").write_text(json.dumps(summary))
+            r = load(folder)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                drawings = [needs_charts.advantage(r, 0, r.metrics[0])]
+                for count in r.counts:
+                    drawings += [needs_charts.needs(r, 0, r.metrics[0], count), needs_charts.error_vs_count(r, 0, r.metrics[0], count)]
+            texts = [d and d.svg() for d in drawings]
+            for d in drawings:
+                if d:
+                    d.close()
+            return texts
+
+        def errors(value):
+            def change(summary):
+                for cell in summary["cells"]:
+                    cell["metrics"]["relmse"].update(mean=value, values=[value] * len(cell["seeds"]))
+            return change
+
+        for value in (0, -0.01, None):
+            advantage, needs, *_ = drawn(errors(value))
+            self.assertIsNone(advantage, "a ratio to nothing")
+            self.assertNotIn("enough:", needs)
+
+        def without_metric(summary):
+            for cell in summary["cells"]:
+                cell["metrics"] = {}
+        self.assertNotIn("enough:", drawn(without_metric)[1])
+
+        def single(summary):
+            for cell in summary["cells"]:
+                error = cell["metrics"]["relmse"]
+                error.update(halfWidth=None, values=error["values"][:1])
+                cell["seeds"] = cell["seeds"][:1]
+            summary["decompositions"] = []
+        advantage, needs, *_ = drawn(single)
+        self.assertIn("times fixed, level 2 at 90<", advantage)
+        self.assertEqual(needs.count("enough:"), 3)
+        self.assertNotIn("geometry alone", needs)
+
+    def test_geometry_of_a_model_is_one_point(self):
+        """If this fails, the curve of geometry against steps goes to and fro between efforts."""
+        d = needs_charts.needs(load(self.needs), 0, load(self.needs).metrics[0], "steps")
+        self.assertEqual(re.findall(r"<title>(fixed, level \d: \d+) steps, squared bias", d.svg()),
+                         ["fixed, level 2: 960", "fixed, level 1: 1280"], "the third has none")
+        d.close()
 
     def test_cost_of_a_model_that_grows(self):
         d = needs_charts.cost_vs_model(load(self.grown), "triangles")
@@ -210,6 +270,22 @@ class ReportTest(unittest.TestCase):
         self.assertIsNone(needs_charts.cost_vs_model(load(self.needs), "triangles"), "its baseline has a knob, and there is one scene")
         self.assertEqual(run([str(self.grown), "--quiet"]), 0)
         self.assertIn("Cost with the model", (self.grown / "report.html").read_text())
+
+    def test_counts_stand_in_tables(self):
+        """If this fails, a budget of steps is held against rays, and points that a chart left out stand nowhere."""
+        folder = self.root / "budget"
+        synthetic.needs_study(folder, [])
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["equal"] = "steps a pixel"
+        summary["cells"][-1]["budget"] = {"given": 800.0, "reached": 721.0, "inRange": True}
+        (folder / "summary.json").write_text(json.dumps(summary))
+        self.assertEqual(run([str(folder), "--quiet"]), 0)
+        tables = Tables((folder / "report.html").read_text()).tables
+        head, *rows = tables["table.box"]
+        self.assertEqual([text for text, _ in head][6:8], ["triangles", "steps a pixel"])
+        self.assertEqual([float(value) for _, value in rows[-1][6:8]], [300, 720])
+        _, budget = tables["budget.box"]
+        self.assertEqual([float(value) for _, value in budget[2:5]], [800, 721, 720])
 
     def test_selection_and_style(self):
         folder = self.root / "selected"
