@@ -46,6 +46,11 @@ class Study:
         self.name, self.results = name, load(path)
         self.scenes, self.labels = self.results.scenes, self.results.labels
 
+    def labels_of(self, scene):
+        """Those that were measured there: what a study solves for has values of its own in each scene."""
+        r = self.results
+        return [label for c, label in enumerate(r.labels) if any(r.cell(r.scene(scene), c, f) for f in range(len(r.frames)))]
+
     def _at(self, technique, scene=None, frame=0):
         r = self.results
         if scene is None and len(r.scenes) > 1:
