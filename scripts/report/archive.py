@@ -18,7 +18,7 @@ def study_of(summary, root):
     found = [path for path in sorted(studies.rglob(summary["study"] + ".json"))
              if path.relative_to(studies).parts[0] != "results" and json.loads(path.read_text())["about"] == summary["about"]]
     if len(found) != 1:
-        raise Missing(f"{len(found)} files {summary['study']}.json below {studies} have the \"about\" of these results; keep them in the tree that their study is of")
+        raise Missing(f"{len(found)} files {summary['study']}.json below {studies} have the \"about\" of these results; keep them in the tree of their study")
     return str(found[0].relative_to(studies).with_suffix(""))
 
 
@@ -49,7 +49,8 @@ def reduced_cell(cell, rows, names):
     short = without(cell, "runs", "image", "exposure", "referenceNoise")
     short["ms"] = {**cell["ms"], "values": [row["ms"] for row in rows]}
     short["rays"] = {**cell["rays"], "values": [sum(sum(cost["rays"].values()) for cost in row["passes"].values()) for row in rows]}
-    short["passes"] = {name: {"ms": cost["ms"], "rays": {purpose: rays for purpose, rays in cost["rays"].items() if rays}} for name, cost in cell["passes"].items()}
+    traced = {name: {purpose: rays for purpose, rays in cost["rays"].items() if rays} for name, cost in cell["passes"].items()}
+    short["passes"] = {name: {"ms": cost["ms"], "rays": traced[name]} for name, cost in cell["passes"].items()}
     short["metrics"] = {name: without(found, "againstStart") for name, found in cell["metrics"].items() if name in names}
     return short
 

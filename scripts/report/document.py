@@ -39,8 +39,8 @@ def of_difference(difference):
 
 
 class Study:
-    """Of the figures that it gives as text: techniques are named with their knobs as in reports ("ReSTIR PT, neighbours 3"); a scene has to be named where there are several; a frame counts
-    from the event."""
+    """Gives figures as text. Techniques are named with their knobs, as in reports ("ReSTIR PT, neighbours 3"); a scene has to be named where there are
+    several; frames are counted from the event."""
 
     def __init__(self, name, path):
         self.name, self.results = name, load(path)
@@ -61,7 +61,10 @@ class Study:
         return r.scene(scene or r.scenes[0]), r.configuration(technique), r.frame(frame)
 
     def _cell(self, *at):
-        return self.results.cell(*self._at(*at))
+        cell = self.results.cell(*self._at(*at))
+        if cell is None:
+            raise Missing(f"{self.name} has not measured {listed(map(str, at))}")
+        return cell
 
     def _values(self, metric, *at):
         """Seed by seed: of a metric, of "ms", or of "rays"."""
@@ -87,7 +90,8 @@ class Study:
         return of_difference(self.difference(technique, against, metric, scene, frame))
 
     def at_equal(self, cost, technique, curve, metric, scene=None, frame=0):
-        """Ratio of a technique's error to that of `curve` at the same "ms" or "rays": by the straight line in logarithms through the curve's points, seed by seed."""
+        """Ratio of a technique's error to that of `curve` at the same "ms" or "rays": by the straight line in logarithms through the curve's points, seed
+        by seed."""
         points = [label for label, found in zip(self.labels, self.results.configurations) if found.curve == curve]
         costs = numpy.log([numpy.median(self._values(cost, label, scene, frame)) for label in points])
         errors = numpy.log([self._values(metric, label, scene, frame) for label in points])
