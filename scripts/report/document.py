@@ -47,9 +47,11 @@ class Study:
         self.scenes, self.labels = self.results.scenes, self.results.labels
 
     def labels_of(self, scene):
-        """Those that were measured there: what a study solves for has values of its own in each scene."""
+        """Those that were measured there, as the study orders techniques: what it solves for has values of its own in each scene."""
         r = self.results
-        return [label for c, label in enumerate(r.labels) if any(r.cell(r.scene(scene), c, f) for f in range(len(r.frames)))]
+        order = [technique["name"] for technique in r.summary["techniques"]]
+        there = [c for c in range(len(r.labels)) if any(r.cell(r.scene(scene), c, f) for f in range(len(r.frames)))]
+        return [r.labels[c] for c in sorted(there, key=lambda c: order.index(r.configurations[c].technique))]
 
     def _at(self, technique, scene=None, frame=0):
         r = self.results

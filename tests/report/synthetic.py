@@ -191,7 +191,8 @@ def kept_study(root, name):
                     "metrics": {name: {**estimate(drawn), "values": drawn} for name, drawn in values.items()}}
             span = {"ratio": True, "paired": True, "middle": 2.0, "low": 1.5, "high": 2.5}
             if "ablate" in study["techniques"][technique]:
-                summary["comparisons"].append({**place, "baseline": place, "without": ["initial.roulette"], "ms": span, "rays": span, "metrics": {name: span for name in values}})
+                summary["comparisons"] += [{**place, "baseline": place, "without": [part], "ms": span, "rays": span, "metrics": {name: span for name in values}}
+                                           for part in ("dual", "initial.roulette")]
         else:
             channel = {"mean": 1.0, "reference": 1.0, "difference": 0.001, "halfWidth": 0.002, "sigmas": 1.0}
             cell = {"complete": True, "runs": 64, "batches": 64, "ms": 1.5, "rays": 1.5, "verdict": "inconclusive", "reason": "", "energy": {name: channel for name in ("luminance", "red", "green", "blue")},
