@@ -462,8 +462,9 @@ class ReportTest(unittest.TestCase):
         empty = self.root / "empty"
         empty.mkdir()
         self.assertEqual(run([str(empty)]), 1)
-        text = (PROGRAM / "__main__.py").read_text().replace('"numpy": "python3-numpy"', '"no_such_module": "python3-no-such"')
-        (empty / "__main__.py").write_text(text)
+        shutil.copy(PROGRAM / "__main__.py", empty)
+        text = (PROGRAM / "packages.py").read_text().replace('"numpy": "python3-numpy"', '"no_such_module": "python3-no-such"')
+        (empty / "packages.py").write_text(text)
         output = subprocess.run([sys.executable, str(empty)], capture_output=True, text=True)
         self.assertEqual(output.returncode, 1)
         self.assertRegex(output.stderr, r"has no no_such_module; install python3-no-such \(scripts/setup does\)")
