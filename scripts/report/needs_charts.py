@@ -80,10 +80,11 @@ def needs(r, scene, metric, count):
 
 
 def cost_vs_model(r, count):
-    """What a frame costs in each scene against the model that the baseline shows of it: `count` of the baseline, which has no knob."""
+    """What a frame costs in each scene against the model that the baseline shows of it: `count` of the baseline, which has no knob. None of several sizes,
+    where pixels are what grows."""
     f, curves = shown_frame(r), {}
     base = [c for c, configuration in enumerate(r.configurations) if configuration.technique == r.summary["baseline"]]
-    if len(base) != 1 or len(r.scenes) < 2 or count == "steps":
+    if len(base) != 1 or len(r.scenes) < 2 or len(set(r.pixels)) > 1 or count == "steps":
         return None
     for c, configuration in enumerate(r.configurations):
         for s in numpy.argsort(r.counts[count][:, base[0], f]):
