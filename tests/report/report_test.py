@@ -260,6 +260,7 @@ class ReportTest(unittest.TestCase):
         d = needs_charts.needs(load(self.needs), 0, load(self.needs).metrics[0], "steps")
         self.assertEqual(re.findall(r"<title>(fixed, level \d: \d+) steps, squared bias", d.svg()),
                          ["fixed, level 2: 960", "fixed, level 1: 1280"], "the third has none")
+        self.assertNotRegex(d.note, r"\.[A-Z]", "sentences are apart")
         d.close()
 
     def test_cost_of_a_model_that_grows(self):
