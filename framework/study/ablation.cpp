@@ -102,7 +102,7 @@ private:
             // What is set by the study comes behind the patch, and would turn it on again; what takes its value goes with it.
             for (Setting& setting : less.graph.set)
                 if (setting.name == part->name) setting.value = Json(false);
-            std::erase_if(less.graph.alike, [&](const auto& alike) { return alike.first == part->name; });
+            std::erase_if(less.graph.alike, [&](const Alike& alike) { return alike.name == part->name; });
         }
         less.name = technique.name + " without " + names;
         const auto refuse = [&](const std::string& why) {

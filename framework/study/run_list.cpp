@@ -27,9 +27,12 @@ std::vector<Setting> settingsOf(const StudyGraph& choice, const std::vector<Sett
     std::vector<Setting> settings = choice.set;
     settings.insert(settings.end(), knobs.begin(), knobs.end());
     const std::size_t given = settings.size();
-    for (const auto& [name, from] : choice.alike)
+    for (const Alike& alike : choice.alike)
         for (std::size_t i = 0; i < given; ++i)
-            if (settings[i].name == from) settings.push_back({name, settings[i].value});
+            if (settings[i].name == alike.from) {
+                settings.push_back({alike.name, settings[i].value});
+                settings.back().value.moveTo(alike.where);  // what is wrong with it here is no fault of the other
+            }
     return settings;
 }
 

@@ -104,7 +104,9 @@ StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& k
 
 StagedGraph Stage::buildTechnique(const Technique& technique, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
     StagedGraph staged = build(technique.graph, knobs, scene, seed);
-    for (const Counter& counter : study_.counters) staged.counters.push_back(counterPort(staged.graph, counter));
+    Problems problems;
+    for (const Counter& counter : study_.counters) problems.attempt([&] { staged.counters.push_back(counterPort(staged.graph, counter)); });
+    problems.raise();
     return staged;
 }
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <iterator>
 #include <limits>
+#include <set>
 
 namespace lodestir {
 namespace {
@@ -409,7 +410,7 @@ private:
                     throw Error(value.where(), fmt::format("\"{}\" is given no value that \"{}\" could take", from, name),
                                 meant.empty() ? "give it one with \"set\", \"vary\" or \"solve\"" : meant);
                 }
-                technique.graph.alike.emplace_back(name, from);
+                technique.graph.alike.push_back({name, from, value.keyWhere()});
             });
     }
 
@@ -467,6 +468,13 @@ std::vector<Measure> measuresOf(const Study& study) {
         add({}, finest);
     }
     return measures;
+}
+
+bool Study::judgesTime() const {
+    if (kind != StudyKind::error) return false;
+    std::set<std::string> timed{"error_vs_time", "frontier", "time_by_pass"};
+    if (!countSteps) timed.insert({"advantage", "cost_vs_model"});  // steps are what things cost, where they are counted
+    return (equal && equal->kind == Budget::Kind::time) || std::ranges::any_of(charts, [&](const std::string& chart) { return timed.contains(chart); });
 }
 
 std::vector<std::string> Study::countNames() const {

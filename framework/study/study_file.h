@@ -16,13 +16,19 @@
 
 namespace lodestir {
 
+/// A parameter that takes the value of another.
+struct Alike {
+    std::string name, from;  ///< "pass.parameter"
+    Where where;
+};
+
 /// A graph with changes, and the image port of it that is measured.
 struct StudyGraph {
     Path graph;
     std::optional<std::string> variant;
     std::vector<Json> patches;  ///< merged into the graph behind the variant
     std::vector<Setting> set;
-    std::vector<std::pair<std::string, std::string>> alike;  ///< parameters, and those whose values they take
+    std::vector<Alike> alike;
     std::string port;  ///< "pass.port"; empty: the shown port, or what is shown before tone mapping
     Where where;       ///< of the graph's name
     Where variantWhere, portWhere;
@@ -137,11 +143,7 @@ struct Study {
     double halfWidth = 0.003;                  ///< of an ensemble: the widest 95 % half-width of the energy that it concludes from
 
     /// Does it conclude anything from how long frames take?
-    bool judgesTime() const {
-        return kind == StudyKind::error && ((equal && equal->kind == Budget::Kind::time) || std::ranges::any_of(charts, [](const std::string& chart) {
-                   return chart == "error_vs_time" || chart == "time_by_pass";
-               }));
-    }
+    bool judgesTime() const;
     /// Of all that is counted, in the order of tables.
     std::vector<std::string> countNames() const;
     bool isMeasured(int offset) const { return std::ranges::find(measure, offset) != measure.end(); }

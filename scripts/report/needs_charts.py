@@ -79,15 +79,16 @@ def needs(r, scene, metric, count):
         color = curve_style(*place)["color"]
         (mark,) = d.axes.plot([found.x], [found.y], marker="o", markersize=9, markerfacecolor="none", markeredgecolor=color, linestyle="none")
         d.hint(mark, f"enough: {found.about}")
-    d.note += f"Circles: the least {count} whose error is within {round(100 * (ENOUGH - 1))} % of the curve's least."
+    d.note = f"Circles: the least {count} whose error is within {round(100 * (ENOUGH - 1))} % of the curve's least. " + d.note
     return d
 
 
 def cost_vs_model(r, count):
-    """What a frame costs in each scene against the model that the baseline shows of it: `count` of the baseline, which has no knob."""
+    """What a frame costs in each scene against the model that the baseline shows of it: `count` of the baseline, which has no knob. None of several sizes,
+    where pixels are what grows."""
     f, curves = shown_frame(r), {}
     base = [c for c, configuration in enumerate(r.configurations) if configuration.technique == r.summary["baseline"]]
-    if len(base) != 1 or len(r.scenes) < 2 or count == "steps":
+    if len(base) != 1 or len(r.scenes) < 2 or len(set(r.pixels)) > 1 or count == "steps":
         return None
     for c, configuration in enumerate(r.configurations):
         for s in numpy.argsort(r.counts[count][:, base[0], f]):
@@ -174,5 +175,5 @@ def advantage(r, scene, metric):
     d = Drawing(slug(r.scenes[scene], "advantage", metric["name"]), f"{metric['name']} against the best of {r.summary['baseline']}{at_frame(r, frame)}")
     draw_points(d, curves, cost_name(r), f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, True)
     d.axes.axhline(1, color=GREY, linewidth=0.8, zorder=1)
-    d.note += "Below 1: nearer than any of them at equal cost, which is taken between measured ones or just beyond. Lines: 95 %."
+    d.note = "Below 1: nearer than any of them at equal cost, which is taken between measured ones or just beyond. Lines: 95 %. " + d.note
     return d

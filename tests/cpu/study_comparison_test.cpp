@@ -189,6 +189,9 @@ TEST_F(FairStudy, IsReadAsItIsWritten) {
 
     EXPECT_TRUE(load(R"("equal": { "time": 20 }, "charts": ["error_vs_rays"],)", solved).judgesTime()) << "its budget is a time";
     EXPECT_TRUE(load(R"("charts": ["time_by_pass"],)", plain).judgesTime());
+    EXPECT_TRUE(load(R"("charts": ["frontier"],)", plain).judgesTime());
+    EXPECT_TRUE(load(R"("charts": ["advantage"],)", plain).judgesTime());
+    EXPECT_FALSE(load(R"("charts": ["advantage"], "countSteps": true,)", plain).judgesTime()) << "steps are the cost";
     EXPECT_TRUE(load("", plain).judgesTime()) << "all charts";
 }
 

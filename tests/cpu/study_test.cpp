@@ -145,6 +145,9 @@ TEST_F(StudyTest, AParameterTakesTheValueOfAnother) {
     std::string given;
     for (const Setting& setting : settingsOf(study.techniques[0].graph, run.knobs)) given += setting.name + "=" + setting.value.dump(-1) + " ";
     EXPECT_EQ(given, R"(a.on=true a.mode="x" a.spp=2 b.samples=2 b.on=true )");
+    const Where where = settingsOf(study.techniques[0].graph, run.knobs)[3].value.where();
+    EXPECT_NE(study.techniques[0].vary[1].values[0].where().column, where.column) << "what is wrong with it here is told here";
+    EXPECT_EQ(where.column, study.techniques[0].graph.alike[0].where.column);
 
     const auto said = [&](const std::string& alike) {
         const std::vector<std::string> lines = complaints(text(alike));

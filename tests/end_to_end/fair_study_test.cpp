@@ -111,6 +111,23 @@ TEST_F(FairStudyTest, BudgetsAreMet) {
     EXPECT_EQ(readText(folder / "rays/equal.json"), equal) << "what was solved stays";
 }
 
+// If this fails, a study that is resumed takes a value that was solved for where other parameters followed the knob.
+TEST_F(FairStudyTest, WhatFollowsTheKnobIsPartOfWhatWasSolved) {
+    json["seeds"] = 1;
+    json["reference"]["spp"] = 2;
+    json["techniques"]["solved"] = {{"graph", pathTracing}, {"variant", "no accumulation"}, {"solve", {{"trace.spp", {1, 16}}}}};
+    json["equal"] = {{"rays", "path tracing"}};
+    study("study");
+    const OrderedJson alone = readJson(folder / "study/equal.json");
+    json["techniques"]["solved"]["alike"] = {{"trace.bounces", "trace.spp"}};
+    study("study", {"--resume"});
+    OrderedJson both = readJson(folder / "study/equal.json");
+    EXPECT_EQ(alone.size(), 2u) << "the budget, and the knob";
+    ASSERT_EQ(both.size(), 3u);
+    EXPECT_EQ((--both.end()).value()["budget"], alone.begin().value()["cost"]);
+    EXPECT_NE((--both.end()).value()["tried"]["1"], (--alone.end()).value()["tried"]["1"]) << "a path of one bounce is shorter";
+}
+
 // However busy the machine is: what is judged is what the solver measured itself. If this fails, techniques are compared at times of which one step of their
 // knob is nearer to the budget, or rows say that they took another value than was chosen.
 TEST_F(FairStudyTest, ATimeIsMetWithinAStepOfTheKnob) {

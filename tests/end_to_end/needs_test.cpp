@@ -116,7 +116,8 @@ TEST_F(NeedsTest, WhatIsNoNumberIsRefused) {
     write("study.json", json);
     const Output output = lodestir({"study", (folder / "study.json").string(), "--out", (folder / "out").string()});
     EXPECT_EQ(output.exitCode, 1);
-    for (const char* part : {"study.json:", "lod.changed is no number"}) EXPECT_NE(output.err.find(part), std::string::npos) << part << " in\n" << output.err;
+    for (const char* part : {"study.json:", "lod.changed is no number", "trace.color is no number", "no port \"nothing\""})
+        EXPECT_NE(output.err.find(part), std::string::npos) << part << " in\n" << output.err;
 }
 
 }  // namespace

@@ -265,6 +265,9 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(found, [("fixed", "small", "10", "100"), ("fixed", "large", "20", "1000"), ("chosen", "small", "9", "100"), ("chosen", "large", "9", "1000")])
         d.close()
         self.assertIsNone(needs_charts.cost_vs_model(load(self.needs), "triangles"), "its baseline has a knob, and there is one scene")
+        sizes = load(self.grown)
+        sizes.pixels[0] *= 4
+        self.assertIsNone(needs_charts.cost_vs_model(sizes, "triangles"), "what grows is the image")
         self.assertEqual(run([str(self.grown), "--quiet"]), 0)
         self.assertIn("Cost with the model", (self.grown / "report.html").read_text())
 

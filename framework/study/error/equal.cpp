@@ -130,6 +130,8 @@ private:
         const StudyRun run{configuration.scene, configuration.technique, configuration.knobs, study_.seeds.front()};
         hash.add(stage_.nameOf(run)).addValue(int(study_.equal->kind));
         if (!technique.solve) return hash.hex();
+        // What follows the knob is in no run's name before the knob has a value.
+        for (const Alike& alike : technique.graph.alike) hash.add(alike.name + "\n" + alike.from + "\n");
         hash.add(technique.solve->name).addValue(technique.solve->low).addValue(technique.solve->high).addValue(budgetOf(configuration.scene));
         return hash.hex();
     }

@@ -37,13 +37,13 @@ private:
 
     std::string errors(std::size_t scene) const {
         std::string text = heading() + fmt::format(" {:>5} {:>10} {:>10}", "seeds", "ms", "rays/px");
-        for (const std::string& name : study_.countNames()) text += fmt::format(" {:>10}", name);
+        for (const std::string& name : study_.countNames()) text += fmt::format(" {:>{}}", name, widthOf(name));
         for (const Measure& measure : measuresOf(study_)) text += fmt::format(" {:>30}", measure.name() + " +- 95 %");
         text += "\n";
         for (const Cell& cell : summary_.cells) {
             if (cell.scene != scene || cell.seeds == 0) continue;
             text += start(cell) + fmt::format(" {:>5} {:>10.4g} {:>10.4g}", cell.seeds, cell.milliseconds, cell.rays.mean / study_.scenes[scene].pixels());
-            for (const std::string& name : study_.countNames()) text += fmt::format(" {:>10.4g}", cell.counts.at(name).mean);
+            for (const std::string& name : study_.countNames()) text += fmt::format(" {:>{}.4g}", cell.counts.at(name).mean, widthOf(name));
             for (const Measure& measure : measuresOf(study_)) {
                 const auto found = cell.metrics.find(measure.name());  // of a sequence, the first frame has none
                 text += fmt::format(" {:>30}", found == cell.metrics.end() ? "-" : textOf(found->second));
@@ -66,6 +66,9 @@ private:
         const double budget = std::ranges::find_if(summary_.cells, [&](const Cell& c) { return c.scene == scene && c.budget; })->budget->budget;
         return fmt::format("  given {:.4g} {}\n", budget, study_.equal->unit()) + text;
     }
+
+    /// Of a count's column.
+    static std::size_t widthOf(const std::string& name) { return std::max<std::size_t>(10, name.size()); }
 
     /// In the budget's unit.
     double costOf(const Cell& cell, std::size_t scene) const {
