@@ -197,7 +197,8 @@ StagedGraph Stage::buildReference(std::size_t scene, int samples) {
 
 std::unique_ptr<Runner> Stage::makeRunner(StagedGraph& staged, std::size_t index) {
     if (study_.countSteps && rays() == RayBody::rayQuery)
-        throw Error(Where{study_.file.string()}, "steps are counted, which drivers don't tell of ray_query", "trace with --rays lane, or remove \"countSteps\"");
+        throw Error(Where{study_.file.string()}, "steps are counted, which drivers don't tell of ray_query",
+                    "trace with --rays lane, or remove \"countSteps\"");
     std::vector<Source> pinned = staged.counters;
     pinned.push_back(staged.port);
     return renderer_.bringUp(staged.graph, scene(index), {.pinned = std::move(pinned), .countSteps = study_.countSteps});
