@@ -6,14 +6,15 @@ from .drawing import GREY, Drawing, curve_style, number, with_interval
 from .error_charts import shown_frame
 from .plots import Point, at_frame, count_with_unit, devices, draw_points, slug, with_unit
 from .results import configuration_of
+from .statistics import estimate_difference
 
 ENOUGH = 1.1  # times the least error: what no eye asks more for
 
 
-def point_of(r, scene, c, frame, metric, count, text=""):
+def point_of(r, scene, c, frame, metric, count):
     error, half = r.error[metric["name"]][scene, c, frame], r.half_width[metric["name"]][scene, c, frame]
     x = r.counts[count][scene, c, frame]
-    return Point(x, error, f"{r.labels[c]}: {number(x)} {count}, {metric['name']} {with_interval(error, half)}", (error - half, error + half), label=text)
+    return Point(x, error, f"{r.labels[c]}: {number(x)} {count}, {metric['name']} {with_interval(error, half)}", (error - half, error + half))
 
 
 def measured_at(r, scene, frame):
@@ -60,7 +61,7 @@ def needs(r, scene, metric, count):
             told = half if numpy.isfinite(half) else numpy.inf
             if configuration.curve not in geometry or told < geometry[configuration.curve][0]:
                 geometry[configuration.curve] = told, Point(r.counts[count][scene, c, frame], mean, about, (mean - half, mean + half))
-    if not curves or not metric["fromZero"]:
+    if not curves or not metric["fromZero"] or count == "steps":  # which are the effort's as well
         return None
     drawn = {f"all, {effort}": ((i,), sorted(points, key=lambda p: p.x)) for i, (effort, points) in enumerate(curves.items())}
     efforts = list(drawn.values())
@@ -68,6 +69,9 @@ def needs(r, scene, metric, count):
         drawn["geometry alone"] = ((len(drawn),), sorted((point for _, point in geometry.values()), key=lambda p: p.x))
     d = Drawing(slug(r.scenes[scene], f"needs_{count}", metric["name"]), f"What the scene needs: {metric['name']} against {count}{at_frame(r, frame)}")
     draw_points(d, drawn, count_with_unit(count), with_unit(metric), True, True)
+    low, high = d.axes.get_ylim()
+    least = min((p.y for points in curves.values() for p in points if p.y > 0), default=high)
+    d.axes.set_ylim(max(low, least / 30), high)  # further down the model is as good as the finest
     for place, points in efforts:
         found = knee(points)
         if not found:
@@ -146,24 +150,13 @@ def advantages(r, scene, metric, frame=None):
     return rows
 
 
-def student(freedom):
-    """97.5 % quantile of Student's distribution, by its expansion about the normal one (Abramowitz and Stegun 26.7.5); within 0.1 % from 4 degrees on."""
-    z = 1.959963984540054
-    g = [(z ** 3 + z) / 4, (5 * z ** 5 + 16 * z ** 3 + 3 * z) / 96, (3 * z ** 7 + 19 * z ** 5 + 17 * z ** 3 - 15 * z) / 384]
-    return z + sum(value / freedom ** (i + 1) for i, value in enumerate(g))
-
-
 def ratio(mine, other):
-    """Of means of independent runs, and half of the 95 % interval of its logarithm (Welch)."""
+    """Of independent runs: the geometric mean, and half of the 95 % interval of its logarithm; NaN where an error isn't above 0."""
     mine, other = mine[numpy.isfinite(mine)], other[numpy.isfinite(other)]
-    if not len(mine):
+    if not len(mine) or min(*mine, *other) <= 0:
         return numpy.nan, numpy.nan
-    middle = numpy.mean(mine) / numpy.mean(other)
-    if min(len(mine), len(other)) < 2:
-        return middle, numpy.nan
-    squares = [numpy.var(v, ddof=1) / len(v) / numpy.mean(v) ** 2 for v in (mine, other)]
-    freedom = sum(squares) ** 2 / sum(square ** 2 / (len(v) - 1) for square, v in zip(squares, (mine, other))) if sum(squares) > 0 else 1
-    return middle, student(freedom) * numpy.sqrt(sum(squares))
+    middle, half = estimate_difference(numpy.log(mine), numpy.log(other))
+    return numpy.exp(middle), half
 
 
 def advantage(r, scene, metric):
@@ -180,7 +173,7 @@ def advantage(r, scene, metric):
         return None
     frame = shown_frame(r, metric)
     d = Drawing(slug(r.scenes[scene], "advantage", metric["name"]), f"{metric['name']} against the best of {r.summary['baseline']}{at_frame(r, frame)}")
-    draw_points(d, curves, cost_name(r), f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, False)
+    draw_points(d, curves, cost_name(r), f"{metric['name']} ÷ the least of {r.summary['baseline']} at that cost", True, True)
     d.axes.axhline(1, color=GREY, linewidth=0.8, zorder=1)
     d.note = "Below 1: nearer than any of them at equal cost, which is taken between measured ones or just beyond. Lines: 95 %. " + d.note
     return d

@@ -75,7 +75,7 @@ def draw_points(d, curves, x_label, y_label, log_x, log_y, frames=False):
         d.note = "Bands: 95 % intervals. "
     if hidden:
         what, stands = ("point has", "stands") if hidden == 1 else ("points have", "stand")
-        d.note += f"{hidden} {what} no place on these axes and {stands} in the table only."
+        d.note += f"{hidden} {what} no place on these axes and {stands} in the table only. "
     return d
 
 

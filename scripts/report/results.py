@@ -86,7 +86,7 @@ class Results:
 
     def __init__(self, folder, only=()):
         self.folder = pathlib.Path(folder)
-        path = self.folder / "summary.json"
+        path = self.folder if self.folder.suffix == ".json" else self.folder / "summary.json"
         if not path.exists():
             raise Missing(f"{path} is not there; lodestir study STUDY --out {folder} --resume writes it")
         self.summary = read_summary(path)
@@ -249,5 +249,5 @@ class Results:
 
 
 def load(folder, only=()):
-    """Results of a folder that `lodestir study` wrote; `only`: of these techniques."""
+    """Results of a folder that `lodestir study` wrote, or of the file that scripts/results made of one; `only`: of these techniques."""
     return Results(folder, only)

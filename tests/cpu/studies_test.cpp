@@ -28,8 +28,10 @@ std::string complaintOf(const Path& file) {
 
 std::vector<Path> studiesOfTheTree() {
     std::vector<Path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(sourceFolder / "studies"))
-        if (entry.path().extension() == ".json") files.push_back(entry.path());
+    for (std::filesystem::recursive_directory_iterator entry(sourceFolder / "studies"), end; entry != end; ++entry) {
+        if (entry->path().filename() == "results") entry.disable_recursion_pending();  // what studies have found is no study
+        if (entry->path().extension() == ".json") files.push_back(entry->path());
+    }
     std::ranges::sort(files);
     return files;
 }

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Folders of results as `lodestir study` writes them, with numbers that tests know."""
+import itertools
 import json
 import math
 import pathlib
@@ -196,3 +197,49 @@ def write(folder, summary, rows):
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "summary.json").write_text(json.dumps(summary))
     (folder / "results.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows) + '{"cut')
+
+
+def pass_names(value):
+    """All that a graph file and its variants call their passes."""
+    if isinstance(value, dict):
+        for key, member in value.items():
+            if key == "passes" and isinstance(member, dict):
+                yield from member
+            yield from pass_names(member)
+
+
+def kept_study(root, name):
+    """What scripts/results might have kept of a study of the tree: its scenes, techniques, knobs, frames and metrics, with numbers that mean nothing."""
+    path = root / f"studies/{name}.json"
+    study = json.loads(path.read_text())
+    random = numpy.random.default_rng(1)
+    kind = study.get("kind", "error")
+    scenes = [pathlib.Path(scene).stem for scene in study["scenes"]]
+    configurations = []
+    for technique, given in study["techniques"].items():
+        knobs = {**given.get("vary", {}), **{knob: limits[:1] for knob, limits in given.get("solve", {}).items()}}
+        configurations += [(technique, dict(zip(knobs, values))) for values in itertools.product(*knobs.values())]
+    masks = ["", f".{study['mask']}"] if "mask" in study else [""]
+    metrics = [metric(name + mask) for name in study.get("metrics", []) for mask in masks]
+    frames = study["frames"]["measure"]
+    graphs = [json.loads((path.parent / technique["graph"]).read_text()) for technique in study["techniques"].values()]
+    passes = {name: {"ms": 1.5, "rays": {"nee": 100}} for graph in graphs for name in pass_names(graph)}
+    some = lambda: [float(value) for value in random.uniform(1, 2, 4)]  # noqa: E731
+    summary = head(kind, scenes, [(technique, list(given.get("vary", given.get("solve", {})))) for technique, given in study["techniques"].items()], frames, metrics)
+    summary.update(study=path.stem, about=study["about"], cells=[], comparisons=[], sequences=[], exponents=[], decompositions=[])
+    for scene, (technique, knobs), frame in itertools.product(scenes, configurations, frames):
+        place = {"scene": scene, "technique": technique, "knobs": knobs, "frame": frame}
+        if kind == "error":
+            values = {m["name"]: some() for m in metrics}
+            cell = {"seeds": SEEDS, "ms": {"median": 1.5, "fastest": 1.0, "slowest": 2.0, "values": some()}, "rays": {"mean": 1.5, "halfWidth": 0.5, "values": some()}, "passes": passes,
+                    "metrics": {name: {**estimate(drawn), "values": drawn} for name, drawn in values.items()}}
+            span = {"ratio": True, "paired": True, "middle": 2.0, "low": 1.5, "high": 2.5}
+            if "ablate" in study["techniques"][technique]:
+                summary["comparisons"] += [{**place, "baseline": place, "without": [part], "ms": span, "rays": span, "metrics": {name: span for name in values}}
+                                           for part in ("dual", "initial.roulette")]
+        else:
+            channel = {"mean": 1.0, "reference": 1.0, "difference": 0.001, "halfWidth": 0.002, "sigmas": 1.0}
+            cell = {"complete": True, "runs": 64, "batches": 64, "ms": 1.5, "rays": 1.5, "verdict": "inconclusive", "reason": "", "energy": {name: channel for name in ("luminance", "red", "green", "blue")},
+                    "energyP": 0.5, "blockP": 0.5, "convergence": {"noise": 0.2, "bias": 0.001, "biasDeviation": 0.001, "difference": 0.03, "differenceOfNoise": 0.02, "points": []}}
+        summary["cells"].append({**place, **cell})
+    return summary

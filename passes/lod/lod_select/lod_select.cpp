@@ -19,7 +19,7 @@ struct LodSelect final : Pass {
                                 Count::fixed(1 << 16)};
     Out<Buffer<uint>>   triangles{this, "triangles", "of the levels shown, over all instances: 64 bits, the low word first", Count::fixed(2)};
     Out<Buffer<uint>>   bytes{this, "bytes", "that the levels shown take, each once: 64 bits, the low word first", Count::fixed(2)};
-    Scratch<Buffer<uint>> shown{this, "shown", "of level l of mesh m at m * LEVELS + l: 1 where an instance shows it", Count::reserved()};
+    Scratch<Buffer<uint>> shown{this, "shown", "how many instances show level l of mesh m, at m * LEVELS + l", Count::reserved()};
     Param<Mode>         mode{this, "mode", Mode::scene, {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error"},
                      "how levels are chosen: as the scene file says; finest; one for all; by the scene file's schedule; by distance; the coarsest whose "
                      "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost"};
