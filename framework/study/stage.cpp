@@ -83,7 +83,7 @@ Stage::Stage(const Study& study, const RendererOptions& options) : study_(study)
 Stage::~Stage() = default;
 
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
-    const GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
+    GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
                          .size = study_.scenes[scene].size,
                          .seed = seed,
                          .set = settingsOf(choice, knobs),
