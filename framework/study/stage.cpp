@@ -83,7 +83,7 @@ Stage::Stage(const Study& study, const RendererOptions& options) : study_(study)
 Stage::~Stage() = default;
 
 StagedGraph Stage::build(const StudyGraph& choice, const std::vector<Setting>& knobs, std::size_t scene, std::uint32_t seed) {
-    const GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
+    GraphOptions options{.scene = std::filesystem::absolute(study_.scenes[scene].file),
                          .size = study_.scenes[scene].size,
                          .seed = seed,
                          .set = settingsOf(choice, knobs),
@@ -196,6 +196,9 @@ StagedGraph Stage::buildReference(std::size_t scene, int samples) {
 }
 
 std::unique_ptr<Runner> Stage::makeRunner(StagedGraph& staged, std::size_t index) {
+    if (study_.countSteps && rays() == RayBody::rayQuery)
+        throw Error(Where{study_.file.string()}, "steps are counted, which drivers don't tell of ray_query",
+                    "trace with --rays lane, or remove \"countSteps\"");
     std::vector<Source> pinned = staged.counters;
     pinned.push_back(staged.port);
     return renderer_.bringUp(staged.graph, scene(index), {.pinned = std::move(pinned), .countSteps = study_.countSteps});

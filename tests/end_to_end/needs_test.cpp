@@ -120,5 +120,14 @@ TEST_F(NeedsTest, WhatIsNoNumberIsRefused) {
         EXPECT_NE(output.err.find(part), std::string::npos) << part << " in\n" << output.err;
 }
 
+// If this fails, everything costs 0 steps on a device whose driver traces.
+TEST_F(NeedsTest, StepsThatAreNotToldAreRefused) {
+    write("study.json", studyOf({"boulders_1x.json"}, {{"finest", technique("finest")}}));
+    const Output output = lodestir({"study", (folder / "study.json").string(), "--out", (folder / "out").string(), "--rays", "ray_query"});
+    EXPECT_EQ(output.exitCode, 1);
+    EXPECT_NE(output.err.find("ray_query"), std::string::npos) << output.err;
+    EXPECT_EQ(readText(folder / "out/results.jsonl"), "") << "no row says 0 steps";
+}
+
 }  // namespace
 }  // namespace lodestir::test
