@@ -243,6 +243,22 @@ TEST(Gltf, BuildsChainsFromNodeLevels) {
     expectNear(scene.meshes[0].levels[1].positions[0], {0, 1, 0});
 }
 
+// If this fails, levels whose file says nothing of their errors are taken for as good as the finest, and shown from the nearest. The coarse one lacks a corner
+// of the square that is sqrt(2) / 2 from what is left.
+TEST(Gltf, MeasuresLevelsThatBringNoErrors) {
+    GltfModel model;
+    const int fine =
+        model.addMesh({{"attributes", {{"POSITION", model.positions(square)}}}, {"indices", model.indices({0, 1, 2, 0, 2, 3})}});
+    const int coarse = model.addMesh({{"attributes", {{"POSITION", model.positions(square)}}}, {"indices", model.indices({0, 1, 2})}});
+    model.json["scenes"][0]["nodes"] = {fine};
+    model.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {coarse};
+    model.json["extensionsUsed"] = {"MSFT_lod"};
+    const Scene scene = load(model);
+    ASSERT_EQ(scene.meshes[0].levels.size(), 2u);
+    EXPECT_NEAR(scene.meshes[0].levels[1].error, std::sqrt(0.5f), 1e-6f);
+    EXPECT_TRUE(std::ranges::any_of(scene.notes, [](const std::string& note) { return note.find("measured now") != note.npos; }));
+}
+
 // If this fails, two nodes of one mesh store its triangles twice.
 TEST(Gltf, SharesMeshesBetweenNodes) {
     GltfModel model;

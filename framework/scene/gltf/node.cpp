@@ -8,6 +8,7 @@
 #include <framework/scene/gltf/mesh.h>
 #include <framework/scene/gltf/node.h>
 #include <framework/scene/gltf/skin.h>
+#include <framework/scene/lod/error.h>
 
 #include <fmt/format.h>
 
@@ -239,15 +240,20 @@ private:
 
     void readErrors(int node, const std::vector<std::size_t>& source, Mesh& mesh) {
         const tinygltf::Value& extras = model_.nodes[static_cast<std::size_t>(node)].extras;
+        const auto has = [&](const char* key) { return extras.IsObject() && extras.Has(key) && extras.Get(key).IsArray(); };
         const auto read = [&](const char* key, std::size_t level) {
-            if (!extras.IsObject() || !extras.Has(key) || !extras.Get(key).IsArray()) return 0.0f;
+            if (!has(key)) return 0.0f;
             const tinygltf::Value& value = extras.Get(key).Get(static_cast<int>(source[level]));
             return value.IsNumber() ? static_cast<float>(value.GetNumberAsDouble()) : 0.0f;
         };
         for (std::size_t i = 0; i < mesh.levels.size(); ++i) {
-            if (i > 0) mesh.levels[i].error = std::max(read("lod_error", i), mesh.levels[i - 1].error);
+            // Levels that say nothing would be taken for as good as the finest, and be shown from the nearest.
+            const float error = i == 0 ? 0 : has("lod_error") ? read("lod_error", i) : distanceBetween(mesh.levels[0], mesh.levels[i]);
+            if (i > 0) mesh.levels[i].error = std::max(error, mesh.levels[i - 1].error);
             mesh.levels[i].coverage = read("MSFT_screencoverage", i);
         }
+        if (mesh.levels.size() > 1 && !has("lod_error"))
+            import_.note(fmt::format("levels of detail (node {}) bring no \"lod_error\": they were measured now, in space alone", node));
     }
 
     void addCamera(int index, std::uint32_t place) {

@@ -132,6 +132,13 @@ bool hasUsefulUvs(const MeshLevel& level) {
     });
 }
 
+float distanceBetween(const MeshLevel& a, const MeshLevel& b) {
+    const auto oneWay = [](const MeshLevel& from, const MeshLevel& to) {
+        return farthest(from.positions, from.triangles, spread(from.positions, from.triangles, spreadPoints), TriangleTree(to.positions, to.triangles));
+    };
+    return std::max(oneWay(a, b), oneWay(b, a));
+}
+
 LodReference::LodReference(const MeshLevel& finest)
     : finest_(finest), surface_(finest.positions, finest.triangles), appearance_(finest, Appearance::all) {
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
