@@ -184,7 +184,7 @@ std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
 
 WorldBuilder::~WorldBuilder() = default;
 
-SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives, geometry_->vertices, geometry_->meshes}; }
+SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives, geometry_->vertices, geometry_->positions}; }
 
 std::size_t WorldBuilder::memoryBytes() const {
     const Geometry& g = *geometry_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 
 using namespace lodestir;
@@ -84,12 +85,33 @@ private:
         return {shown.begin(), shown.end()};
     }
 
+    struct Sphere {
+        glm::vec3 center;
+        float radius;
+    };
+    /// Around the finest level, from the middle of its box: a ball fills its views.
+    static Sphere sphereAround(const SceneRecords& scene, std::uint32_t m) {
+        const LevelRecord& level = scene.meshLevels[m * LEVELS];
+        const auto triangles = scene.primitives.subspan(level.firstPrimitive, level.primitiveCount);
+        glm::vec3 low(std::numeric_limits<float>::max()), high = -low;
+        for (const PrimitiveRecord& t : triangles) {
+            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) {
+                low = glm::min(low, scene.positions[v]);
+                high = glm::max(high, scene.positions[v]);
+            }
+        }
+        Sphere sphere{low + 0.5f * (high - low), 0};
+        for (const PrimitiveRecord& t : triangles)
+            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, scene.positions[v]));
+        return sphere;
+    }
+
     static ImpostorRecord recordOf(Frame& frame, const Impostors& made, std::uint32_t m, const Palette& palette, std::vector<Memory>& memories) {
         const std::uint64_t texels = texelCount(made);
         memories.push_back(frame.upload(std::vector<std::byte>(texels * bytesPerTexel), "impostor texels"));
         const std::uint64_t geometry = memories.back().address, uvs = geometry + texels * sizeof(glm::uvec4);
         memories.push_back(frame.upload(palette.places, "impostor palette"));
-        const MeshRecord& sphere = frame.sceneRecords().meshes[m];
+        const Sphere sphere = sphereAround(frame.sceneRecords(), m);
         ImpostorRecord record{.geometry = geometry,
                               .uvs = uvs,
                               .materials = uvs + texels * sizeof(std::uint32_t),
