@@ -163,8 +163,8 @@ public:
 
 private:
     static OrderedJson graph(int views, OrderedJson set) {
-        set["views"] = std::to_string(views);
-        set["resolution"] = "64";
+        set["views"] = views;
+        set["resolution"] = 64;
         return bakeAndView(set);
     }
     int views_;
@@ -456,12 +456,12 @@ TEST_F(ImpostorBake, EachMeshOnceAndAgainOnlyWhenAsked) {
         EXPECT_EQ(raysOf(placed.frames()), view == 0 ? once : 0);
     }
     Frames& frames = placed.frames();
-    frames.set("bake.views", Json("12"));
+    frames.set("bake.views", Json(12));
     frames.run();
     EXPECT_EQ(raysOf(frames), 2 * once);
     frames.run(3);
     EXPECT_EQ(raysOf(frames), 0u);
-    frames.set("bake.resolution", Json("128"));
+    frames.set("bake.resolution", Json(128));
     frames.run();
     EXPECT_EQ(raysOf(frames), 8 * once);
 }
@@ -500,6 +500,36 @@ TEST_F(ImpostorBake, CoverageIsWhatViewsSee) {
     EXPECT_GT(fewer, 0.8);
 }
 
+// A mesh that deforms is baked as frame 0 has it, and the frame in which that happens shows what it would have shown.
+TEST_F(ImpostorBake, DeformingMeshesAreBakedAtRest) {
+    GltfModel model;
+    nlohmann::json square = {{"attributes", {{"POSITION", model.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0})}}}};
+    square["targets"] = {{{"POSITION", model.positions({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}}};
+    model.addMesh(square);
+    const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1), weights = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+    model.json["accessors"][std::size_t(times)].update({{"min", {0}}, {"max", {1}}});
+    model.json["animations"] = {{{"samplers", {{{"input", times}, {"output", weights}}}},
+                                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+    const Path file = model.write(folder.path / "waving.gltf");
+    OrderedJson passes = bakeAndView({{"resolution", 64}, {"views", 6}});
+    passes["view"]["set"] = {{"view", 4}};
+    passes["hits"] = {{"type", "visibility"}};
+    Frames baking(file, {64, 64}, passes, {"view.texels", "hits.depth"}), plain(file, {64, 64}, {{"hits", passes["hits"]}}, {"hits.depth"});
+    for (Frames* frames : {&baking, &plain}) frames->restart(15);
+    for (int frame = 0; frame < 2; ++frame) {
+        baking.run();
+        plain.run();
+        EXPECT_EQ(baking.image("hits.depth").values, plain.image("hits.depth").values) << frame;
+    }
+    std::size_t seen = 0;
+    for (const ShownTexel& t : baking.records<ShownTexel>("view.texels")) {
+        if (t.alpha == 0) continue;
+        ++seen;
+        ASSERT_NEAR(t.position.z, 0, 1e-6);
+    }
+    EXPECT_GT(seen, 1500u);
+}
+
 class ImpostorBodies : public ProgramTest {};
 
 // Bodies that trace rays find the same texels, but where edges decide.
@@ -512,7 +542,7 @@ TEST_F(ImpostorBodies, Agree) {
     ASSERT_GT(bodies.size(), 1u);
     OrderedJson graph = {{"format", 1},
                          {"scene", (sourceFolder / "scenes/chessboard.json").string()},
-                         {"passes", bakeAndView({{"mesh", "white_knight"}, {"resolution", "64"}, {"views", "6"}})},
+                         {"passes", bakeAndView({{"mesh", "white_knight"}, {"resolution", 64}, {"views", 6}})},
                          {"show", "view.color"}};
     write("knight.json", graph);
     std::vector<ShownTexel> first;
@@ -537,13 +567,19 @@ TEST_F(ImpostorBodies, Agree) {
     }
 }
 
-TEST_F(ImpostorBodies, UnknownMeshesAreNamed) {
+TEST_F(ImpostorBodies, WrongParametersAreNamed) {
     write("wrong.json", {{"format", 1},
                          {"scene", (sourceFolder / "scenes/chessboard.json").string()},
-                         {"passes", bakeAndView({{"mesh", "white_nkight"}, {"resolution", "64"}})},
+                         {"passes", bakeAndView({{"mesh", "white_nkight"}})},
                          {"show", "view.color"}});
-    const Output output = lodestir({"run", (folder / "wrong.json").string(), "--size", "64x64", "--out", (folder / "out").string()});
-    EXPECT_EQ(output.exitCode, 1);
+    const auto run = [&](const std::string& set) {
+        Output output = lodestir({"run", (folder / "wrong.json").string(), "--size", "64x64", "--set", set, "--out", (folder / "out").string()});
+        EXPECT_EQ(output.exitCode, 1) << output.err;
+        return output;
+    };
+    EXPECT_NE(run("bake.views=9").err.find("set \"views\" to 6, 12 or 18"), std::string::npos);
+    EXPECT_NE(run("bake.resolution=200").err.find("set \"resolution\" to 128"), std::string::npos);
+    const Output output = run("bake.views=6");
     EXPECT_NE(output.err.find("chessboard.json: no instance shows a mesh \"white_nkight\""), std::string::npos) << output.err;
     EXPECT_NE(output.err.find("did you mean \"white_knight\""), std::string::npos) << output.err;
 }

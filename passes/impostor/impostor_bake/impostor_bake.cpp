@@ -6,14 +6,11 @@
 #include "palette.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <limits>
 #include <set>
 
 using namespace lodestir;
-
-enum class Views { six, twelve, eighteen };
-enum class Resolution { r64, r128, r256, r512, r1024 };
 
 struct ImpostorBake final : Pass {
     Out<Impostors>    impostors{this, "impostors", "views of each mesh, with their pyramids"};
@@ -22,22 +19,26 @@ struct ImpostorBake final : Pass {
                                Count::fixed(2)};
     Out<Buffer<uint>> merged{this, "merged", "materials that levels above the finest take for another, because a mesh has more than 8", Count::fixed(1)};
     Param<std::string> mesh{this, "mesh", "", "name of the only mesh that is baked; empty: all that instances show"};
-    Param<Views>      views{this, "views", Views::eighteen, {"6", "12", "18"},
-                       "directions that a mesh is seen from: vertices of an octahedron, of an icosahedron, or the first with the middles of a cube's edges"};
-    Param<Resolution> resolution{this, "resolution", Resolution::r256, {"64", "128", "256", "512", "1024"},
-                                 "texels a side of a view at its finest level; bytes a mesh are 32 times its square a view"};
+    Param<int>        views{this, "views", 18, {6, 18},
+                     "directions that a mesh is seen from, 6: vertices of an octahedron; 12: of an icosahedron; 18: the 6 and the middles of a cube's edges"};
+    Param<int>        resolution{this, "resolution", 256, {64, 1024},
+                          "texels a side of a view at its finest level, a power of 2; bytes a mesh are 32 times its square a view"};
     Param<int>        points{this, "points", 1024, {0, 1 << 20}, "points a mesh that coverage is measured with"};
     ImpostorBake() { cadence = Cadence::onChange; }
 
     void execute(Frame& frame) override {
+        if (views % 6 != 0) throw Error("an impostor_bake has " + std::to_string(int(views)) + " views", "set \"views\" to 6, 12 or 18");
+        if (!std::has_single_bit(std::uint32_t(int(resolution))))
+            throw Error("an impostor_bake has a resolution of " + std::to_string(int(resolution)) + ", which is no power of 2",
+                        "set \"resolution\" to " + std::to_string(std::bit_floor(std::uint32_t(int(resolution)))));
         const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene());
         const Memory objects = frame.objects();
         std::vector<Memory> memories{objects};
         Impostors made{.objects = 0,
                        .meshes = std::uint32_t(frame.scene().meshes.size()),
-                       .views = std::array{6u, 12u, 18u}[std::size_t(Views(views))],
-                       .resolution = 64u << std::uint32_t(Resolution(resolution)),
-                       .levels = 5 + std::uint32_t(Resolution(resolution))};
+                       .views = std::uint32_t(int(views)),
+                       .resolution = std::uint32_t(int(resolution)),
+                       .levels = std::uint32_t(std::bit_width(std::uint32_t(int(resolution)))) - 2};  // down to 4 texels a side
         std::vector<ImpostorRecord> records(made.meshes);
         std::uint32_t mergedMaterials = 0;
         for (const std::uint32_t m : baked) {
