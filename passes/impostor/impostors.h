@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reshadable impostors: orthographic views of a mesh that keep geometry, texture coordinates and material ids, never what a material looks like
-// (Reshadable Impostors with Level-of-Detail for Real-Time Distant Objects Rendering; cited as RiLoD). What impostor_bake makes, and other passes take by one wire.
+// (Reshadable Impostors with Level-of-Detail for Real-Time Distant Objects Rendering; cited as RiLoD). impostor_bake makes them, and other passes take
+// them by one wire.
 #ifndef LODESTIR_IMPOSTORS_H
 #define LODESTIR_IMPOSTORS_H
 #include "base/shared.h"

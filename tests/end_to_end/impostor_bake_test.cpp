@@ -34,13 +34,16 @@ std::vector<glm::dvec3> directions(int views) {
     const double ratio = views == 12 ? std::numbers::phi : 1;
     const auto axisFirst = [](int axis, const glm::dvec3& v) { return axis == 0 ? glm::dvec3(v.z, v.x, v.y) : axis == 1 ? glm::dvec3(v.y, v.z, v.x) : v; };
     for (int i = 0; views != 12 && i < 6; ++i) all.push_back(axisFirst(i / 2, {0, 0, i % 2 == 0 ? 1 : -1}));
-    for (int i = 0; views != 6 && i < 12; ++i)
-        all.push_back(glm::normalize(axisFirst(i / 4, {0, i % 2 == 0 ? 1 : -1, i / 2 % 2 == 0 ? ratio : -ratio})));
+    for (int i = 0; views != 6 && i < 12; ++i) all.push_back(glm::normalize(axisFirst(i / 4, {0, i % 2 == 0 ? 1 : -1, i / 2 % 2 == 0 ? ratio : -ratio})));
     return all;
 }
 
 Window windowOf(int views, int view, const glm::dvec3& center, double radius, int resolution) {
-    Window w{.d = directions(views)[std::size_t(view)], .center = center, .radius = radius, .side = 2 * radius / (resolution - 2), .resolution = std::size_t(resolution)};
+    Window w{.d = directions(views)[std::size_t(view)],
+             .center = center,
+             .radius = radius,
+             .side = 2 * radius / (resolution - 2),
+             .resolution = std::size_t(resolution)};
     w.x = glm::normalize(glm::cross(std::abs(w.d.y) > 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), w.d));
     w.y = glm::cross(w.d, w.x);
     return w;
@@ -508,8 +511,8 @@ TEST_F(ImpostorBake, DeformingMeshesAreBakedAtRest) {
     model.addMesh(square);
     const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1), weights = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
     model.json["accessors"][std::size_t(times)].update({{"min", {0}}, {"max", {1}}});
-    model.json["animations"] = {{{"samplers", {{{"input", times}, {"output", weights}}}},
-                                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+    model.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", weights}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
     const Path file = model.write(folder.path / "waving.gltf");
     OrderedJson passes = bakeAndView({{"resolution", 64}, {"views", 6}});
     passes["view"]["set"] = {{"view", 4}};

@@ -82,7 +82,7 @@ private:
             if ((wanted.empty() || name == wanted) && !scene.meshes[instance.mesh].levels.front().triangles.empty()) shown.insert(instance.mesh);
         }
         if (!wanted.empty() && shown.empty())
-            throw Error(Where{scene.file.string()}, "no instance shows a mesh \"" + wanted + "\", which an impostor_bake is to bake", didYouMean(wanted, names));
+            throw Error(Where{scene.file.string()}, "no instance shows a mesh \"" + wanted + "\" for an impostor_bake to bake", didYouMean(wanted, names));
         return {shown.begin(), shown.end()};
     }
 

@@ -40,9 +40,8 @@ Palette paletteOf(const Scene& scene, const Mesh& mesh) {
         if (i < PALETTE) {
             palette.materials[i] = order[i];
         } else {
-            const auto like = std::ranges::min_element(palette.materials, {}, [&](std::uint32_t m) {
-                return difference(scene.materials[m], scene.materials[order[i]]);
-            });
+            const auto like =
+                std::ranges::min_element(palette.materials, {}, [&](std::uint32_t m) { return difference(scene.materials[m], scene.materials[order[i]]); });
             place = std::uint32_t(like - palette.materials.begin());
             ++palette.merged;
         }

@@ -19,8 +19,8 @@ struct ImpostorView final : Pass {
     Param<int>              level{this, "level", 0, {0, 8}, "of the pyramid, 0 being the finest; the coarsest where it has fewer"};
     Param<int>              view{this, "view", -1, {-1, 17}, "the only view to show, which fills the frame; -1: all"};
     Param<Shown>            show{this, "show", Shown::normal, {"normal", "depth", "alpha", "uv", "material", "length"},
-                      "normal in object space, from [-1, 1] to [0, 1]; depth, near is bright; alpha; texture coordinates; a colour for each material; length of "
-                      "the mean normal, 1 where all agree"};
+                      "normal in object space, from [-1, 1] to [0, 1]; depth, near is bright; alpha; texture coordinates; a colour for each material; "
+                      "length of the mean normal, 1 where all agree"};
 
     void execute(Frame& frame) override {
         const std::string& wanted = mesh;
@@ -31,7 +31,7 @@ struct ImpostorView final : Pass {
             names.push_back(m.name);
         }
         if (!wanted.empty() && index == NONE)
-            throw Error(Where{frame.scene().file.string()}, "there is no mesh \"" + wanted + "\", which an impostor_view is to show", didYouMean(wanted, names));
+            throw Error(Where{frame.scene().file.string()}, "there is no mesh \"" + wanted + "\" for an impostor_view to show", didYouMean(wanted, names));
         frame.dispatch(shader, frame.size(), {index});
     }
 };
