@@ -103,6 +103,16 @@ public:
         const FrameWorld made = s_.world().at(at, s_.size_);
         provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep);
     }
+    Memory objects() override {
+        FrameWorld made = s_.world().objects();
+        const auto buffer = std::make_shared<const gpu::Buffer>(s_.device_, sizeof(World), gpu::Memory::upload, "objects");
+        auto keep = std::make_shared<std::vector<std::shared_ptr<const void>>>();
+        if (s_.topLevels_ && made.value.instanceCount > 0) keep->push_back(s_.topLevels_->add(made.value, buffer->address()));
+        std::memcpy(buffer->mapped(), &made.value, sizeof(World));
+        if (s_.topLevels_) s_.topLevels_->record(s_.commands_);
+        keep->insert(keep->end(), {buffer, std::move(made.keep)});
+        return {buffer->address(), keep};
+    }
 
 private:
     /// `rows` rows of a dispatch from row `first` on (pixels, where it is one row).

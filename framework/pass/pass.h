@@ -81,6 +81,9 @@ public:
     virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) = 0;
     /// Gives an output the World of the loaded scene as it stands at a frame (fractions are fine).
     virtual void provideScene(const Port& world, float at) = 0;
+    /// Where a World lies that holds each mesh of the scene by itself: instance m is mesh m, untransformed, in the pose of frame 0, at its finest level.
+    /// There is no top level over them and no light: rays are traced in onlyInstance(w, m) (trace/reference.glsl). What comes next in this pass sees it.
+    virtual Memory objects() = 0;
     virtual const Scene& scene() const = 0;
     virtual SceneRecords sceneRecords() const = 0;  ///< lives as long as the scene
 };

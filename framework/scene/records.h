@@ -8,11 +8,12 @@
 namespace lodestir {
 
 /// What some arrays of every World hold, by the same names: where the triangles of a level lie, in which order, and their texture coordinates.
-/// Only normals and tangents follow the pose.
+/// Only positions, normals and tangents follow the pose.
 struct SceneRecords {
     std::span<const LevelRecord> meshLevels;  ///< of mesh m at level l: m * LEVELS + l
     std::span<const PrimitiveRecord> primitives;
     std::span<const VertexRecord> vertices;
+    std::span<const glm::vec3> positions;  ///< of the vertices, object space, in the pose that was last asked for
 };
 
 }  // namespace lodestir

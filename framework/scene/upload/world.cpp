@@ -184,7 +184,7 @@ std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
 
 WorldBuilder::~WorldBuilder() = default;
 
-SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives, geometry_->vertices}; }
+SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives, geometry_->vertices, geometry_->positions}; }
 
 std::size_t WorldBuilder::memoryBytes() const {
     const Geometry& g = *geometry_;
@@ -247,26 +247,19 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     return moving;
 }
 
-FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
+void WorldBuilder::moveTo(float frame) {
     Pose pose = poseAt(scene_, frame);
-    if (!moving_ || pose != pose_) {
-        moving_ = makeMoving(pose);
-        pose_ = std::move(pose);
-    }
-    std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
-    if (!levels_ || levels != levels_->values) {
-        std::vector<std::uint32_t> words = levels;
-        words.push_back(1);  // levelsChanged: this is made anew only where they do
-        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(words), "levels");
-        levels_ = std::make_shared<const Levels>(Levels{std::move(levels), std::move(buffer)});
-    }
+    if (moving_ && pose == pose_) return;
+    moving_ = makeMoving(pose);
+    pose_ = std::move(pose);
+}
+
+World WorldBuilder::placedWorld() const {
     World w{};
     w.nodes = moving_->nodes.address();
     w.triangles = moving_->shapes->triangles.address();
     w.traceInstances = moving_->traceInstances.address();
     w.roots = fixed_->roots.address();
-    w.levels = levels_->buffer.address();
-    w.levelsChanged = w.levels + levels_->values.size() * sizeof(std::uint32_t);
     w.bottomLevels = moving_->bottomLevels ? moving_->bottomLevels->addresses.address() : 0;
     w.gridBase = moving_->gridBase;
     w.gridScale = moving_->gridScale;
@@ -290,6 +283,21 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.lightCount = moving_->lightCount;
     w.sceneRadius = moving_->radius;
     w.sceneCenter = moving_->center;
+    return w;
+}
+
+FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
+    moveTo(frame);
+    std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
+    if (!levels_ || levels != levels_->values) {
+        std::vector<std::uint32_t> words = levels;
+        words.push_back(1);  // levelsChanged: this is made anew only where they do
+        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const std::uint32_t>(words), "levels");
+        levels_ = std::make_shared<const Levels>(Levels{std::move(levels), std::move(buffer)});
+    }
+    World w = placedWorld();
+    w.levels = levels_->buffer.address();
+    w.levelsChanged = w.levels + levels_->values.size() * sizeof(std::uint32_t);
     w.camera = cameraRecord(scene_.cameraAt(frame), size);
     struct Keep {
         std::shared_ptr<const Fixed> fixed;
@@ -297,6 +305,40 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
         std::shared_ptr<const Levels> levels;
     };
     return {w, std::make_shared<Keep>(Keep{fixed_, moving_, levels_})};
+}
+
+FrameWorld WorldBuilder::objects() {
+    moveTo(0);
+    std::vector<TraceInstance> traced;
+    std::vector<InstanceRecord> records;
+    for (std::uint32_t m = 0; m < scene_.meshes.size(); ++m) {
+        const glm::mat4 untransformed(1);
+        traced.push_back(traceInstance(m, geometry_->grids[m], untransformed));
+        InstanceRecord& record = records.emplace_back();
+        record.mesh = m;
+        record.firstLight = NONE;
+        record.rounding = traceRounding(untransformed);
+        putRows(untransformed, record.toWorld);
+    }
+    struct Keep {
+        std::shared_ptr<const Fixed> fixed;
+        std::shared_ptr<const Moving> moving;
+        gpu::Buffer traceInstances, instances, levels;
+    };
+    const std::vector<std::uint32_t> finest(records.size() + 1, 0);  // and levelsChanged
+    auto keep = std::make_shared<Keep>(Keep{fixed_, moving_, gpu::makeBuffer(device_, std::span<const TraceInstance>(traced), "trace objects"),
+                                            gpu::makeBuffer(device_, std::span<const InstanceRecord>(records), "objects"),
+                                            gpu::makeBuffer(device_, std::span<const std::uint32_t>(finest), "levels of objects")});
+    World w = placedWorld();
+    w.traceInstances = keep->traceInstances.address();
+    w.instances = keep->instances.address();
+    w.levels = keep->levels.address();
+    w.levelsChanged = w.levels + records.size() * sizeof(std::uint32_t);
+    w.instanceCount = std::uint32_t(records.size());
+    w.topRoot = bvh_ref::empty;
+    w.lightCount = 0;
+    w.environmentLight = NONE;
+    return {w, keep};
 }
 
 }  // namespace lodestir

@@ -25,6 +25,8 @@ public:
     /// The World at a frame (fractions are fine), for an image of `size` pixels, with the levels of the scene's own policy. Transforms, the
     /// top level, lights and meshes that deform are made anew only when something moved; a World handed out earlier stays as it was.
     FrameWorld at(float frame, glm::uvec2 size);
+    /// Each mesh by itself, as Frame::objects says.
+    FrameWorld objects();
     SceneRecords records() const;
     std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
 
@@ -35,6 +37,8 @@ private:
     struct Levels;
     std::shared_ptr<const Shapes> uploadShapes() const;
     std::shared_ptr<const Moving> makeMoving(const Pose& pose);
+    void moveTo(float frame);   ///< moving_ is of that frame
+    World placedWorld() const;  ///< all but levels and camera
 
     const gpu::Device& device_;
     const Scene& scene_;

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays traced by the driver (VK_KHR_ray_query). World.tlas was built over the levels that World.levels says.
+// Drivers don't tell their steps, so traceSteps stays 0.
 #extension GL_EXT_ray_query : require
-
-#ifdef COUNT_STEPS
-uint traceSteps = 0u;  // drivers don't tell
-#endif
+#include "trace/reference.glsl"
 
 // World.primitives index of a triangle of an instance's level.
 uint queriedPrimitive(World w, uint instance, uint triangle) {
@@ -15,14 +13,17 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
     Hit hit = Hit(ray.tMax, vec2(0.0), NONE, NONE);
     Passage passage = passageStart();
     if (!(ray.tMax > 0.0) || w.tlas == 0ul) return anyHit ? arrivedHit(hit, passage) : hit;
+    // The driver's structure is over all instances: where one is to be seen alone (onlyInstance), each triangle is asked whose it is.
+    bool alone = w.topRoot >= REF_INSTANCE && w.instanceCount > 1u;
+    uint flags = (anyHit ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT) | (alone ? gl_RayFlagsNoOpaqueEXT : gl_RayFlagsNoneEXT);
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, accelerationStructureEXT(w.tlas), anyHit ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT, 0xffu,
-                          ray.origin, max(ray.tMin, 0.0), ray.direction, ray.tMax);
-    while (rayQueryProceedEXT(query)) {  // stops at triangles of levels where some have an alpha mask or are panes
+    rayQueryInitializeEXT(query, accelerationStructureEXT(w.tlas), flags, 0xffu, ray.origin, max(ray.tMin, 0.0), ray.direction, ray.tMax);
+    while (rayQueryProceedEXT(query)) {  // else it stops at triangles of levels where some have an alpha mask or are panes
         Hit met = Hit(rayQueryGetIntersectionTEXT(query, false), rayQueryGetIntersectionBarycentricsEXT(query, false), 0u,
                       rayQueryGetIntersectionInstanceIdEXT(query, false));
         met.primitive = queriedPrimitive(w, met.instance, rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-        bool accepted = alphaAccepts(w, met.primitive, met.barycentrics);
+        bool accepted = !alone || (REF_INSTANCE | uint(met.instance)) == w.topRoot;
+        if (accepted) accepted = alphaAccepts(w, met.primitive, met.barycentrics);
         if (anyHit && accepted) accepted = endsLight(w, ray, met, passage);
         if (accepted) rayQueryConfirmIntersectionEXT(query);
     }

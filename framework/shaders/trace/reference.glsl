@@ -9,6 +9,12 @@ const uint REF_BACK = 0xd0000000u;      // return from an instance
 const uint REF_INSTANCE = 0xe0000000u;  // | instance
 const uint REF_NONE = 0xffffffffu;
 
+/// A World that shows one of its instances alone, whatever else is there.
+World onlyInstance(World w, uint instance) {
+    w.topRoot = REF_INSTANCE | instance;
+    return w;
+}
+
 // One over each component of a ray's direction. Zero gets a huge slope instead of an infinite one: infinity times zero is no number.
 vec3 inverseOf(vec3 direction) {
     const float least = 1e-18;

@@ -5,8 +5,8 @@
 //
 // gives the nearest hit, or any one where only `primitive != NONE` counts (then t, barycentrics and instance mean nothing), and without one
 // the share of light that came through (transmittance); anyHit must be subgroup-uniform. 0 <= tMin; the direction's length
-// should be between 1e-6 and 1e6. Every call is compiled in full at its place: have one
-// call site in a loop (trace/driver.glsl), and have all lanes of the subgroup reach it, those without a ray with tMax < 0.
+// should be between 1e-6 and 1e6. In onlyInstance(w, i) (trace/reference.glsl) rays see instance i alone. Every call is compiled in full at its
+// place: have one call site in a loop (trace/driver.glsl), and have all lanes of the subgroup reach it, those without a ray with tMax < 0.
 #include "texture/alpha.glsl"
 #include "trace/pane.glsl"
 #include "world/ray.h"

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// The finest level of a mesh's views, side by side: four rays a texel, whose hits are reduced as four texels of the pyramid are.
+#version 460
+#include "pass.glsl"
+#include "impostor/reduce.glsl"
+#include "store_texel.glsl"
+#include "trace/reference.glsl"
+#include "trace/trace.glsl"
+
+struct Path {
+    uint view;
+    uvec2 texel;
+    uint item;  // of the next ray
+    Hit hits[4];
+};
+
+World world() { return onlyInstance(objects(), bakedMesh()); }
+uint pathItems(World now) { return 4; }
+World pathWorld(World now, uint item) { return now; }
+
+void pathStart(inout Path p, World now, ivec2 pixel) {
+    uint n = impostors().resolution;
+    p.view = uint(pixel.x) / n;
+    p.texel = uvec2(uint(pixel.x) % n, pixel.y);
+}
+
+bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
+    p.item = item;
+    return true;
+}
+
+Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
+    anyHit = false;
+    purpose = RAYS_PRIMARY;
+    Impostors made = impostors();
+    ImpostorRecord object = made.objects.at[bakedMesh()];
+    ImpostorView v = impostorView(made.views, p.view);
+    vec2 window = (vec2(p.texel) + 0.25 + 0.5 * vec2(p.item & 1u, p.item >> 1)) / float(made.resolution);
+    return Ray(windowPoint(made, object.center, object.radius, v, window, -0.5), 0.0, -v.d, 4.0 * object.radius, 0u);
+}
+
+bool pathStep(inout Path p, World w, Hit hit) {
+    p.hits[p.item] = hit;
+    return false;
+}
+
+void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
+
+// log2 of texture coordinates per side of a sample, which is half a texel wide.
+float densityOf(World w, Surface s, float side) {
+    uvec3 corners = cornersOf(w, s.primitive);
+    vec2 a = w.vertices.at[corners.x].uv0, b = w.vertices.at[corners.y].uv0 - a, c = w.vertices.at[corners.z].uv0 - a;
+    float area = abs(b.x * c.y - b.y * c.x);
+    return area > 0.0 && s.twiceArea > 0.0 ? 0.5 * log2(area / s.twiceArea) + log2(0.5 * side) : DENSITY_NONE;
+}
+
+ImpostorTexel sampleOf(World w, Impostors made, ImpostorRecord object, ImpostorView v, Hit hit) {
+    ImpostorTexel t = emptyTexel();
+    if (hit.primitive == NONE) return t;
+    Surface s = surfaceAt(w, hit, -v.d);
+    uint flags = w.materials.at[s.material].flags;
+    // Not bent towards this view, as Surface.shadingNormal is: it will be seen from elsewhere.
+    vec3 n = s.frame[2];
+    if (w.materials.at[s.material].normalMap.texture != NONE) n = mapNormal(w, s, cornersOf(w, s.primitive), s.frame);
+    n = s.frontFace ? n : -n;
+    t.flags = ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? TEXEL_TWO_SIDED : 0u) | (s.frontFace ? 0u : TEXEL_BACK) |
+              (dot(n, s.normal) < 0.95 ? TEXEL_BUMPED : 0u);
+    n = intoView(v, n);
+    t.normal = safeNormalize(vec3(n.xy, max(n.z, 0.0)), vec3(0.0, 0.0, 1.0));
+    t.depth = windowOf(made, object.center, object.radius, v, s.position).z;
+    t.alpha = 1.0;
+    t.density = densityOf(w, s, texelSide(made, object.radius, 0u));
+    t.uv = s.uv;
+    t.material = s.material;
+    t.counts = 15u << (4u * UintArray(object.places).at[s.material]);
+    return t;
+}
+
+void pathEnd(Path p, ivec2 pixel) {
+    World w = world();
+    Impostors made = impostors();
+    ImpostorRecord object = made.objects.at[bakedMesh()];
+    ImpostorView v = impostorView(made.views, p.view);
+    ImpostorTexel samples[4];
+    for (int i = 0; i < 4; ++i) samples[i] = sampleOf(w, made, object, v, p.hits[i]);
+    storeTexel(made, 0u, p.view, p.texel, reduceTexels(samples, 2u * made.resolution));
+}
+
+#include "trace/driver.glsl"

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Four texels of an impostor as one, of the level above (RiLoD: depth by minimum, normals by a von Mises-Fisher mean, texture
+// coordinates and alpha by average, materials by count). What the paper leaves open is decided here; README.md says how.
+#include "impostor/texel.glsl"
+
+const float SAME_LAYER = 4.0;  // sides of a texel up to which what lies behind belongs to the same surface
+const float SAME_CHART = 0.125;  // difference of texture coordinates up to which they are averaged
+
+uint countOf(uint counts, uint place) { return (counts >> (4u * place)) & 15u; }
+
+/// The place with the largest count; of equal ones the first.
+uint commonestPlace(uint counts) {
+    uint best = 0u;
+    for (uint i = 1u; i < PALETTE; ++i) best = countOf(counts, i) > countOf(counts, best) ? i : best;
+    return best;
+}
+
+/// Shares, which sum to 1, as 15ths that sum to 15: the largest remainders are rounded up, and no share of half a 15th or more is lost.
+uint roundShares(float shares[PALETTE]) {
+    int counts[PALETTE], sum = 0;
+    for (uint i = 0u; i < PALETTE; ++i) {
+        float ideal = 15.0 * shares[i];
+        counts[i] = int(ideal + 1e-4);  // what are whole 15ths but for rounding are whole
+        if (counts[i] == 0 && ideal >= 0.5) counts[i] = 1;
+        sum += counts[i];
+    }
+    while (sum != 15) {
+        int change = sum < 15 ? 1 : -1;
+        uint best = PALETTE;
+        float most = -1e30;
+        for (uint i = 0u; i < PALETTE; ++i) {
+            float excess = float(change) * (15.0 * shares[i] - float(counts[i]));
+            bool may = shares[i] > 0.0 && (change > 0 || counts[i] > 1);
+            if (may && excess > most) {
+                most = excess;
+                best = i;
+            }
+        }
+        if (best == PALETTE) break;
+        counts[best] += change;
+        sum += change;
+    }
+    uint bits = 0u;
+    for (uint i = 0u; i < PALETTE; ++i) bits |= uint(counts[i]) << (4u * i);
+    return bits;
+}
+
+/// `resolution`: of the level that the four are of, texels a side.
+ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution) {
+    ImpostorTexel made = emptyTexel();
+    for (int i = 0; i < 4; ++i)
+        if (isSeen(t[i])) made.depth = min(made.depth, t[i].depth);
+
+    // Attributes are those of the nearest surface alone, or silhouettes would take on what lies behind them.
+    float weights[4], sum = 0.0, shares[PALETTE];
+    for (uint p = 0u; p < PALETTE; ++p) shares[p] = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        made.alpha += 0.25 * t[i].alpha;
+        bool kept = isSeen(t[i]) && t[i].depth - made.depth <= SAME_LAYER / float(resolution);
+        weights[i] = kept ? t[i].alpha : 0.0;
+        sum += weights[i];
+        made.normal += weights[i] * t[i].normal;
+        made.flags |= kept ? t[i].flags : 0u;
+        for (uint p = 0u; p < PALETTE; ++p) shares[p] += weights[i] * float(countOf(t[i].counts, p));
+    }
+    if (sum == 0.0) return emptyTexel();
+    made.normal /= sum;  // not made unit again: lengths multiply up only as long as nobody does
+    for (uint p = 0u; p < PALETTE; ++p) shares[p] /= 15.0 * sum;
+    made.counts = roundShares(shares);
+
+    // Texture coordinates are those of the material that most of it has, where it is nearest, with what lies beside it on the same chart.
+    uint place = commonestPlace(made.counts);
+    int nearest = -1;
+    bool found = false;
+    for (int i = 0; i < 4; ++i) {
+        if (weights[i] == 0.0) continue;
+        bool mine = commonestPlace(t[i].counts) == place;
+        if (nearest < 0 || (mine && !found) || (mine == found && t[i].depth < t[nearest].depth)) nearest = i;
+        found = found || mine;
+    }
+    vec2 anchor = t[nearest].uv, uvSum = vec2(0.0);
+    float uvWeight = 0.0, densitySum = 0.0, densityWeight = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        if (weights[i] == 0.0 || (commonestPlace(t[i].counts) == place) != found) continue;
+        vec2 apart = t[i].uv - anchor;
+        apart -= floor(apart + 0.5);
+        if (max(abs(apart.x), abs(apart.y)) >= SAME_CHART) continue;
+        uvSum += weights[i] * apart;
+        uvWeight += weights[i];
+        if (t[i].density == DENSITY_NONE) continue;
+        densitySum += weights[i] * t[i].density;
+        densityWeight += weights[i];
+    }
+    made.uv = anchor + uvSum / uvWeight;
+    made.uv -= floor(made.uv);
+    if (densityWeight > 0.0) made.density = densitySum / densityWeight + 1.0;  // a texel is twice as wide
+    made.material = t[nearest].material;
+    return made;
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// Where the views of an impostor stand, and how their texels lie in space and in memory. No table: each is a function of its number.
+#include "impostor/impostors.h"
+
+/// From the object to the camera of a view, unit. 6: vertices of an octahedron; 12: of an icosahedron; 18: the 6 and the middles of a cube's edges, which
+/// are the square faces of a rhombicuboctahedron.
+vec3 viewDirection(uint views, uint view) {
+    bool axes = views != 12u && view < 6u;
+    uint i = views == 18u ? view - 6u : view, axis = axes ? view >> 1 : i >> 2;
+    vec2 signs = axes ? vec2(0.0, (view & 1u) != 0u ? -1.0 : 1.0) : vec2((i & 1u) != 0u ? -1.0 : 1.0, (i & 2u) != 0u ? -1.0 : 1.0);
+    const float golden = 1.61803398874989;
+    vec3 d = normalize(vec3(0.0, signs.x, signs.y * (views == 12u ? golden : 1.0)));
+    return axis == 0u ? d.zxy : axis == 1u ? d.yzx : d.xyz;
+}
+
+struct ImpostorView {
+    vec3 x, y, d;  // right, up and towards the camera: orthonormal, right-handed, object space
+};
+
+/// The mesh's Y is up, where it isn't where the camera looks from; there it is Z. A rule that a bake made anew follows again.
+ImpostorView impostorView(uint views, uint view) {
+    vec3 d = viewDirection(views, view);
+    vec3 x = normalize(cross(abs(d.y) > 0.99 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0), d));
+    return ImpostorView(x, cross(d, x), d);
+}
+
+vec3 intoView(ImpostorView v, vec3 direction) { return vec3(dot(v.x, direction), dot(v.y, direction), dot(v.d, direction)); }
+vec3 outOfView(ImpostorView v, vec3 direction) { return direction.x * v.x + direction.y * v.y + direction.z * v.d; }
+
+/// Texels a side at a level.
+uint levelResolution(Impostors impostors, uint level) { return impostors.resolution >> level; }
+
+/// Half the window's side, in radii: one of the finest texels more than the sphere on each side, so that the border is empty.
+float windowMargin(Impostors impostors) { return float(impostors.resolution) / float(impostors.resolution - 2u); }
+
+/// Side of a texel, object units.
+float texelSide(Impostors impostors, float radius, uint level) {
+    return 2.0 * radius * windowMargin(impostors) / float(levelResolution(impostors, level));
+}
+
+/// The point at `window` in [0,1]^2 (x right, y up) and a depth: 0 on the near side of the sphere, 1 on the far side.
+vec3 windowPoint(Impostors impostors, vec3 center, float radius, ImpostorView v, vec2 window, float depth) {
+    vec2 place = (2.0 * window - 1.0) * windowMargin(impostors);
+    return center + radius * (place.x * v.x + place.y * v.y + (1.0 - 2.0 * depth) * v.d);
+}
+
+/// Inverse of windowPoint: window and depth of a point.
+vec3 windowOf(Impostors impostors, vec3 center, float radius, ImpostorView v, vec3 point) {
+    vec3 p = intoView(v, point - center) / radius;
+    return vec3(0.5 + 0.5 * p.xy / windowMargin(impostors), 0.5 - 0.5 * p.z);
+}
+
+/// Place of a texel in the arrays of an ImpostorRecord: level after level, in each view after view, in each row after row from the bottom.
+/// Before a level lie N^2 + (N/2)^2 + ... texels of each view.
+uint texelIndex(Impostors impostors, uint level, uint view, uvec2 texel) {
+    uint n = levelResolution(impostors, level), before = (impostors.resolution * impostors.resolution - n * n) / 3u * 4u;
+    return before * impostors.views + (view * n + texel.y) * n + texel.x;
+}

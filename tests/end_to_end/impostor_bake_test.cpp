@@ -1,0 +1,591 @@
+// SPDX-License-Identifier: MIT
+// Impostors hold what was there: shapes whose every texel is known, and pyramids that can be counted by hand.
+#include "../cpu/gltf_model.h"
+#include "frames.h"
+#include "program.h"
+
+#include <framework/image/png.h>
+
+#include <passes/impostor/impostor_view/shown_texel.h>
+
+#include <functional>
+#include <numbers>
+#include <numeric>
+
+namespace lodestir::test {
+namespace {
+
+constexpr std::uint32_t backSeen = 2;  // TEXEL_BACK
+
+/// What the views of a set look at an object from and how their windows lie, found anew from the sentences that define them.
+struct Window {
+    glm::dvec3 x, y, d, center;
+    double radius, side;  ///< side of a texel
+    std::size_t resolution;
+
+    glm::dvec3 pointAt(double column, double row, double depth) const {
+        const double half = 0.5 * double(resolution);
+        return center + (column - half) * side * x + (row - half) * side * y + radius * (1 - 2 * depth) * d;
+    }
+};
+
+std::vector<glm::dvec3> directions(int views) {
+    std::vector<glm::dvec3> all;
+    const double ratio = views == 12 ? std::numbers::phi : 1;
+    const auto axisFirst = [](int axis, const glm::dvec3& v) { return axis == 0 ? glm::dvec3(v.z, v.x, v.y) : axis == 1 ? glm::dvec3(v.y, v.z, v.x) : v; };
+    for (int i = 0; views != 12 && i < 6; ++i) all.push_back(axisFirst(i / 2, {0, 0, i % 2 == 0 ? 1 : -1}));
+    for (int i = 0; views != 6 && i < 12; ++i) all.push_back(glm::normalize(axisFirst(i / 4, {0, i % 2 == 0 ? 1 : -1, i / 2 % 2 == 0 ? ratio : -ratio})));
+    return all;
+}
+
+Window windowOf(int views, int view, const glm::dvec3& center, double radius, int resolution) {
+    Window w{.d = directions(views)[std::size_t(view)],
+             .center = center,
+             .radius = radius,
+             .side = 2 * radius / (resolution - 2),
+             .resolution = std::size_t(resolution)};
+    w.x = glm::normalize(glm::cross(std::abs(w.d.y) > 0.99 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0), w.d));
+    w.y = glm::cross(w.d, w.x);
+    return w;
+}
+
+struct Corner {
+    glm::dvec3 position, normal;
+    glm::dvec2 uv;
+};
+
+/// A mesh with a primitive for each material.
+class Body {
+public:
+    explicit Body(std::size_t materials) : parts_(materials), materials_(materials) {}
+
+    void triangle(std::size_t material, const Corner& a, const Corner& b, const Corner& c) {
+        for (const Corner* k : {&a, &b, &c}) {
+            Part& part = parts_[material];
+            for (int i = 0; i < 3; ++i) part.positions.push_back(float(k->position[i]));
+            for (int i = 0; i < 3; ++i) part.normals.push_back(float(k->normal[i]));
+            for (int i = 0; i < 2; ++i) part.uvs.push_back(float(k->uv[i]));
+        }
+    }
+    void quad(std::size_t material, const Corner& a, const Corner& b, const Corner& c, const Corner& d) {
+        triangle(material, a, b, c);
+        triangle(material, a, c, d);
+    }
+    /// A sheet over [0,1]^2.
+    void sheet(glm::ivec2 cells, const std::function<Corner(glm::dvec2)>& at) {
+        for (int y = 0; y < cells.y; ++y) {
+            for (int x = 0; x < cells.x; ++x) {
+                const auto corner = [&](int i, int j) { return at(glm::dvec2(x + i, y + j) / glm::dvec2(cells)); };
+                const Corner a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
+                if (glm::distance(a.position, b.position) > 1e-9) triangle(0, a, b, c);
+                if (glm::distance(c.position, d.position) > 1e-9) triangle(0, a, c, d);
+            }
+        }
+    }
+    void sphere(double radius) {
+        sheet({192, 96}, [&](glm::dvec2 p) {
+            const double turn = 2 * std::numbers::pi * p.x, rise = std::numbers::pi * (p.y - 0.5);
+            const glm::dvec3 n(std::cos(rise) * std::sin(turn), std::sin(rise), std::cos(rise) * std::cos(turn));
+            return Corner{radius * n, n, p};
+        });
+    }
+    /// Around an axis, unit.
+    void torus(double ring, double tube, const glm::dvec3& axis, const glm::dvec3& center = glm::dvec3(0)) {
+        const glm::dvec3 side = glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        sheet({48, 24}, [&](glm::dvec2 p) {
+            const double turn = 2 * std::numbers::pi * p.x, around = 2 * std::numbers::pi * p.y;
+            const glm::dvec3 out = std::cos(turn) * side + std::sin(turn) * glm::cross(side, axis), n = std::cos(around) * out + std::sin(around) * axis;
+            return Corner{center + ring * out + tube * n, n, p};
+        });
+    }
+    nlohmann::json& material(std::size_t i) { return model.json["materials"][i]; }
+
+    /// `placements`: translations of nodes that show the mesh.
+    Path write(const Path& folder, const std::string& name, const std::vector<glm::vec3>& placements = {glm::vec3(0)}) {
+        nlohmann::json primitives = nlohmann::json::array();
+        for (std::size_t i = 0; i < materials_; ++i) {
+            model.json["materials"][i]["name"] = "material " + std::to_string(i);
+            const Part& p = parts_[i];
+            if (p.positions.empty()) continue;
+            primitives.push_back({{"attributes",
+                                   {{"POSITION", model.positions(p.positions)},
+                                    {"NORMAL", model.accessor(p.normals, 5126, "VEC3", 3)},
+                                    {"TEXCOORD_0", model.accessor(p.uvs, 5126, "VEC2", 2)}}},
+                                  {"material", i}});
+        }
+        model.json["meshes"] = {{{"name", name}, {"primitives", primitives}}};
+        for (std::size_t i = 0; i < placements.size(); ++i) {
+            model.json["nodes"].push_back({{"mesh", 0}, {"translation", {placements[i].x, placements[i].y, placements[i].z}}});
+            model.json["scenes"][0]["nodes"].push_back(i);
+        }
+        return model.write(folder / (name + ".gltf"));
+    }
+
+    GltfModel model;
+
+private:
+    struct Part {
+        std::vector<float> positions, normals, uvs;
+    };
+    std::vector<Part> parts_;
+    std::size_t materials_;
+};
+
+OrderedJson bakeAndView(const OrderedJson& bake) {
+    return {{"bake", {{"type", "impostor_bake"}, {"set", bake}}}, {"view", {{"type", "impostor_view"}, {"in", {{"impostors", "bake"}}}}}};
+}
+
+/// Bakes at 64 texels and reads back texel by texel.
+class Baked {
+public:
+    Baked(const Path& scene, int views, OrderedJson set = OrderedJson::object())
+        : views_(views), frames_(scene, {64, 64}, graph(views, std::move(set)), {"view.texels", "bake.bytes", "bake.coverage", "bake.merged"}) {}
+
+    /// Rows from the bottom.
+    std::vector<ShownTexel> texels(int view, int level = 0) {
+        frames_.set("view.view", Json(view));
+        frames_.set("view.level", Json(level));
+        frames_.run();
+        const std::vector<ShownTexel> pixels = frames_.records<ShownTexel>("view.texels");
+        const int n = 64 >> level, width = 64 / n;
+        std::vector<ShownTexel> texels;
+        for (int y = 0; y < n; ++y)
+            for (int x = 0; x < n; ++x) texels.push_back(pixels[std::size_t((63 - y * width) * 64 + x * width)]);
+        for (const ShownTexel& t : texels) EXPECT_EQ(t.view, std::uint32_t(view));
+        return texels;
+    }
+    /// Points tried and points seen.
+    glm::dvec2 coverage() {
+        frames_.run();
+        const auto words = frames_.records<std::uint32_t>("bake.coverage");
+        return {words.at(0), words.at(1)};
+    }
+    double share() { return coverage().y / coverage().x; }
+    Frames& frames() { return frames_; }
+    int views() const { return views_; }
+
+private:
+    static OrderedJson graph(int views, OrderedJson set) {
+        set["views"] = views;
+        set["resolution"] = 64;
+        return bakeAndView(set);
+    }
+    int views_;
+    Frames frames_;
+};
+
+class ImpostorBake : public testing::Test {
+protected:
+    TemporaryFolder folder;
+};
+
+// Four rays a texel meet a sphere where geometry says, and are reduced by hand.
+TEST_F(ImpostorBake, SphereIsWhereItIs) {
+    Body body(1);
+    body.sphere(1.5);
+    const Path model = body.write(folder.path, "ball", {glm::vec3(40, -7, 3)});
+    const double sagitta = 1.5 * (1 - std::cos(std::numbers::pi / 96)) * 1.01;
+    for (const int views : {6, 12, 18}) {
+        Baked baked(model, views);
+        std::size_t compared = 0, empty = 0, partial = 0;
+        double worstNormal = 0, worstDepth = 0;
+        for (int view = 0; view < views; ++view) {
+            const Window w = windowOf(views, view, glm::dvec3(0), 1.5, 64);
+            const std::vector<ShownTexel> texels = baked.texels(view);
+            for (int y = 0; y < 64; ++y) {
+                for (int x = 0; x < 64; ++x) {
+                    const ShownTexel& t = texels[std::size_t(y * 64 + x)];
+                    int hits = 0;
+                    bool unclear = false;
+                    double nearest = 1;
+                    std::vector<std::pair<double, glm::dvec3>> samples;
+                    for (int i = 0; i < 4; ++i) {
+                        const glm::dvec3 p = w.pointAt(x + 0.25 + 0.5 * (i & 1), y + 0.25 + 0.5 * (i >> 1), 0.5);
+                        const double squared = glm::dot(p, p), height = std::sqrt(std::max(0.0, 1.5 * 1.5 - squared));
+                        unclear |= std::abs(std::sqrt(squared) - 1.5) < 2 * sagitta;
+                        if (squared >= 1.5 * 1.5) continue;
+                        ++hits;
+                        samples.push_back({0.5 - 0.5 * height / 1.5, glm::normalize(p + height * w.d)});
+                        nearest = std::min(nearest, samples.back().first);
+                    }
+                    if (unclear) continue;
+                    ASSERT_EQ(t.alpha, float(hits) / 4) << views << " " << view << " " << x << " " << y;
+                    empty += hits == 0;
+                    partial += hits > 0 && hits < 4;
+                    if (hits == 0) continue;
+                    ASSERT_LT(std::abs(glm::length(glm::dvec3(t.position)) - 1.5), 0.5 * w.side + sagitta);
+                    glm::dvec3 normal(0);
+                    double kept = 0;
+                    for (const auto& [depth, n] : samples) {
+                        unclear |= std::abs(depth - nearest - 4.0 / 128) < 1e-3;
+                        if (depth - nearest > 4.0 / 128) continue;
+                        normal += n;
+                        ++kept;
+                    }
+                    if (unclear) continue;
+                    normal /= kept;
+                    // Smooth normals of a faceted sphere; at the rim its height moves by more than the sagitta.
+                    const double slope = std::max(0.1, glm::dot(glm::normalize(normal), w.d));
+                    worstNormal = std::max(worstNormal, glm::distance(glm::dvec3(t.normal), normal) * slope);
+                    worstDepth = std::max(worstDepth, std::abs(t.depth - nearest) * slope);
+                    ++compared;
+                }
+            }
+        }
+        std::printf("%d views: %zu texels, %zu partly covered, %zu empty; normals off by %.1e at most, depths by %.1e, both over the slope\n", views, compared,
+                    partial, empty, worstNormal, worstDepth);
+        EXPECT_GT(compared, std::size_t(views) * 2000);
+        EXPECT_GT(partial, std::size_t(views) * 40);
+        EXPECT_GT(empty, std::size_t(views) * 500);
+        EXPECT_LT(worstNormal, 1e-3);
+        EXPECT_LT(worstDepth, 1e-3);
+    }
+}
+
+// Alpha of a level is the mean of the finest one's, to the last bit.
+TEST_F(ImpostorBake, AlphaAveragesExactly) {
+    Body body(1);
+    body.sphere(1);
+    Baked baked(body.write(folder.path, "ball"), 12);
+    const std::vector<ShownTexel> finest = baked.texels(7);
+    double sum = 0;
+    for (const ShownTexel& t : finest) sum += t.alpha;
+    EXPECT_NEAR(sum / (64 * 64), std::numbers::pi / 4 * std::pow(62.0 / 64, 2), 2e-3);
+    for (int level = 1; level <= 3; ++level) {
+        const std::vector<ShownTexel> texels = baked.texels(7, level);
+        const std::size_t n = std::size_t(64 >> level), width = std::size_t(1) << level;
+        for (std::size_t y = 0; y < n; ++y) {
+            for (std::size_t x = 0; x < n; ++x) {
+                double mean = 0;
+                for (std::size_t j = 0; j < width; ++j)
+                    for (std::size_t i = 0; i < width; ++i) mean += finest[(y * width + j) * 64 + x * width + i].alpha;
+                ASSERT_EQ(texels[y * n + x].alpha, float(mean / double(width * width))) << level << " " << x << " " << y;
+            }
+        }
+    }
+}
+
+/// A square of cells of 2 x 2 texels of the view from +Z, from texel 16 to 48: three materials in turn, normals that lean left and right by turns of
+/// columns, texture coordinates that run with x and y. Two slivers, between the rays, make the sphere's radius 1.
+struct Checker {
+    static constexpr double lean = 0.5, uvScale = 0.6;
+    static constexpr int materials = 3;
+    Window window = windowOf(6, 4, glm::dvec3(0), 1, 64);
+
+    static std::size_t materialOf(int i, int j) { return std::size_t((i + 2 * j) % materials); }
+    static glm::dvec3 normalOf(int i) { return {i % 2 == 0 ? std::sin(lean) : -std::sin(lean), 0, std::cos(lean)}; }
+    static glm::dvec2 uvOf(const glm::dvec3& p) { return uvScale * glm::dvec2(p) + glm::dvec2(3.3, 0.1); }
+
+    Body body() const {
+        Body body(materials);
+        for (int j = 0; j < 16; ++j) {
+            for (int i = 0; i < 16; ++i) {
+                const auto corner = [&](int x, int y) {
+                    const glm::dvec3 p = window.pointAt(16 + 2 * (i + x), 16 + 2 * (j + y), 0.5);
+                    return Corner{p, normalOf(i), uvOf(p)};
+                };
+                body.quad(materialOf(i, j), corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1));
+            }
+        }
+        for (const double end : {-1.0, 1.0}) {
+            const auto corner = [&](double x, double y) { return Corner{{x, y, 0}, {0, 0, 1}, {0, 0}}; };
+            body.triangle(0, corner(end, 0), corner(0.999 * end, 1e-4), corner(0.999 * end, -1e-4));
+        }
+        return body;
+    }
+};
+
+TEST_F(ImpostorBake, PyramidOfACheckerIsCounted) {
+    const Checker checker;
+    Body body = checker.body();
+    Baked baked(body.write(folder.path, "checker"), 6);
+    // The palette has the largest first; slivers make material 0 larger than it would be. Its places are found by looking at level 1.
+    const auto seenAt = [](const std::vector<ShownTexel>& texels, int n, int x, int y) { return texels[std::size_t(y * n + x)]; };
+    const auto finest = baked.texels(4), first = baked.texels(4, 1);
+    std::array<std::uint32_t, 3> place{};
+    for (int j = 0; j < 16; ++j) {
+        for (int i = 0; i < 16; ++i) {
+            for (int k = 0; k < 4; ++k) {
+                const ShownTexel t = seenAt(finest, 64, 16 + 2 * i + (k & 1), 16 + 2 * j + (k >> 1));
+                ASSERT_EQ(t.alpha, 1);
+                ASSERT_EQ(t.material, Checker::materialOf(i, j));
+                ASSERT_LT(glm::distance(glm::dvec3(t.normal), Checker::normalOf(i)), 1e-4);
+                ASSERT_NEAR(t.depth, 0.5, 1e-6);
+                const glm::dvec2 uv = glm::fract(Checker::uvOf(t.position));
+                ASSERT_LT(glm::distance(glm::dvec2(t.uv), uv), 2e-5);
+                ASSERT_NEAR(t.density, std::log2(Checker::uvScale * checker.window.side), 0.13);  // two roundings to 1/8: none is below a half of it
+            }
+            const ShownTexel t = seenAt(first, 32, 8 + i, 8 + j);
+            std::uint32_t p = 0;
+            while (p < 8 && (t.counts >> (4 * p) & 15) != 15) ++p;
+            ASSERT_LT(p, 3u) << std::hex << t.counts;
+            if (i < 3 && j == 0) place[Checker::materialOf(i, j)] = p;
+            ASSERT_EQ(t.counts, 15u << (4 * place[Checker::materialOf(i, j)]));
+            ASSERT_LT(glm::distance(glm::dvec3(t.normal), Checker::normalOf(i)), 1e-4);
+            ASSERT_LT(glm::distance(glm::dvec2(t.uv), glm::fract(Checker::uvOf(t.position))), 2e-5);
+            ASSERT_NEAR(t.density, std::log2(Checker::uvScale * checker.window.side) + 1, 0.2);
+        }
+    }
+    EXPECT_EQ(place[0] + place[1] + place[2], 3u);
+    EXPECT_NE(place[0], place[1]);
+
+    // Each texel of level 2 has four cells, of which two are of one material: 1/4, 1/2 and 1/4, which round to 4, 7 and 4.
+    const auto second = baked.texels(4, 2);
+    for (int j = 0; j < 8; ++j) {
+        for (int i = 0; i < 8; ++i) {
+            std::array<int, 3> cells{};
+            for (int k = 0; k < 4; ++k) ++cells[Checker::materialOf(2 * i + (k & 1), 2 * j + (k >> 1))];
+            std::uint32_t expected = 0;
+            for (std::size_t m = 0; m < 3; ++m) expected |= std::uint32_t(cells[m] == 2 ? 7 : cells[m] == 1 ? 4 : 0) << (4 * place[m]);
+            const ShownTexel t = seenAt(second, 16, 4 + i, 4 + j);
+            ASSERT_EQ(t.counts, expected);
+            // Half of the normals lean left, half right.
+            ASSERT_LT(glm::distance(glm::dvec3(t.normal), glm::dvec3(0, 0, std::cos(Checker::lean))), 1e-4);
+        }
+    }
+    // Above, shares are right to what was rounded: at most half a 15th of each child, and of the texel itself.
+    for (const int level : {3, 4}) {
+        const int n = 64 >> level, cells = 1 << (level - 1);
+        const auto texels = baked.texels(4, level);
+        for (int j = 0; j < n / 2; ++j) {
+            for (int i = 0; i < n / 2; ++i) {
+                std::array<double, 3> share{};
+                for (int y = 0; y < cells; ++y)
+                    for (int x = 0; x < cells; ++x) share[Checker::materialOf(i * cells + x, j * cells + y)] += 15.0 / (cells * cells);
+                const ShownTexel t = seenAt(texels, n, n / 4 + i, n / 4 + j);
+                std::uint32_t sum = 0;
+                for (std::uint32_t p = 0; p < 8; ++p) sum += t.counts >> (4 * p) & 15;
+                ASSERT_EQ(sum, 15u);
+                for (std::size_t m = 0; m < 3; ++m) ASSERT_NEAR(t.counts >> (4 * place[m]) & 15, share[m], 1.5);
+                ASSERT_NEAR(glm::length(t.normal), std::cos(Checker::lean), 1e-4);
+                ASSERT_EQ(t.alpha, 1);
+            }
+        }
+    }
+    // From behind, the same square turned: normals face the camera, and the flag tells.
+    std::size_t seen = 0;
+    for (const ShownTexel& t : baked.texels(5)) {
+        if (t.alpha == 0) continue;
+        ASSERT_TRUE(t.flags & backSeen);
+        ASSERT_NEAR(t.normal.z, -std::cos(Checker::lean), 1e-4);
+        ++seen;
+    }
+    EXPECT_EQ(seen, 32u * 32);
+    for (const ShownTexel& t : finest) ASSERT_FALSE(t.flags & backSeen);
+    EXPECT_EQ(baked.frames().records<std::uint32_t>("bake.merged").at(0), 0u);
+    const std::uint64_t texels = 6 * (64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4);
+    EXPECT_EQ(baked.frames().records<std::uint32_t>("bake.bytes"), (std::vector<std::uint32_t>{std::uint32_t(24 * texels), 0}));
+}
+
+/// Squares in the plane z, each with a material.
+void addSquare(Body& body, std::size_t material, const glm::dvec2& low, const glm::dvec2& high, double z) {
+    const auto corner = [&](double x, double y) { return Corner{{x, y, z}, {0, 0, 1}, {x, y}}; };
+    body.quad(material, corner(low.x, low.y), corner(high.x, low.y), corner(high.x, high.y), corner(low.x, high.y));
+}
+
+TEST_F(ImpostorBake, MoreMaterialsThanThePaletteHasAreMerged) {
+    // Ten stripes, the later the narrower; the last two are coloured like the first and the third.
+    Body body(10);
+    double x = -1;
+    for (std::size_t m = 0; m < 10; ++m) {
+        const double width = 0.3 - 0.02 * double(m), red = m == 8 ? 0.01 : m == 9 ? 0.21 : 0.1 * double(m);
+        addSquare(body, m, {x, -1}, {x + width, 1}, 0);
+        body.material(m)["pbrMetallicRoughness"] = {{"baseColorFactor", {red, 0.5, 0.5, 1}}};
+        x += width;
+    }
+    Baked baked(body.write(folder.path, "stripes"), 6);
+    const auto finest = baked.texels(4), coarse = baked.texels(4, 1);
+    EXPECT_EQ(baked.frames().records<std::uint32_t>("bake.merged").at(0), 2u);
+    std::set<std::uint32_t> ids;
+    std::array<std::set<std::uint32_t>, 10> places;
+    for (std::size_t i = 0; i < finest.size(); ++i) {
+        const ShownTexel& t = finest[i];
+        if (t.alpha == 0) continue;
+        ids.insert(t.material);
+        std::uint32_t p = 0;
+        while ((t.counts >> (4 * p) & 15) == 0) ++p;
+        places.at(t.material).insert(p);
+    }
+    EXPECT_EQ(ids.size(), 10u);  // the finest level knows them all
+    for (std::uint32_t m = 0; m < 8; ++m) EXPECT_EQ(places[m], std::set<std::uint32_t>{m}) << m;
+    EXPECT_EQ(places[8], std::set<std::uint32_t>{0});
+    EXPECT_EQ(places[9], std::set<std::uint32_t>{2});
+    for (const ShownTexel& t : coarse) EXPECT_EQ(t.counts == 0, t.alpha == 0);
+}
+
+TEST_F(ImpostorBake, MasksLetRaysThroughAndNormalMapsCount) {
+    // In front a square that its mask takes away whole, behind it one whose map leans all normals towards +x.
+    Body body(2);
+    addSquare(body, 0, {-0.5, -0.5}, {0.5, 0.5}, 0.5);
+    addSquare(body, 1, {-0.5, -0.5}, {0.5, 0.5}, -0.5);
+    body.material(0).update({{"alphaMode", "MASK"}, {"alphaCutoff", 0.5}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 0.4}}}}});
+    body.material(1)["normalTexture"] = {{"index", 0}};
+    const std::array<double, 3> stored{204, 128, 230};  // of 255: 0.6, 0.004 and 0.804
+    ImageData map{.width = 2, .height = 2, .channels = 3, .values = std::vector<float>(12)};
+    for (int y = 0; y < 2; ++y)
+        for (int x = 0; x < 2; ++x)
+            for (int c = 0; c < 3; ++c) map.at(x, y, c) = float(std::pow((stored[std::size_t(c)] / 255 + 0.055) / 1.055, 2.4));
+    writePng(folder.path / "lean.png", map);
+    body.model.json["images"] = {{{"uri", "lean.png"}}};
+    body.model.json["textures"] = {{{"source", 0}}};
+    Baked baked(body.write(folder.path, "pane"), 6);
+    glm::dvec3 expected(2 * stored[0] / 255 - 1, 2 * stored[1] / 255 - 1, 2 * stored[2] / 255 - 1);
+    expected.y = 0;  // v runs down in textures: which way is not this test's question
+    std::size_t seen = 0;
+    for (const ShownTexel& t : baked.texels(4)) {
+        if (t.alpha == 0) continue;
+        ASSERT_EQ(t.material, 1u);
+        ASSERT_NEAR(t.position.z, -0.5, 1e-5);
+        ASSERT_LT(glm::distance(glm::normalize(expected), glm::dvec3(t.normal)), 6e-3);
+        ASSERT_TRUE(t.flags & 4u);  // TEXEL_BUMPED: the map leans by 37 degrees
+        ++seen;
+    }
+    EXPECT_GT(seen, 300u);
+}
+
+std::uint64_t raysOf(const Frames& frames) { return frames.rays("bake")[RAYS_PRIMARY]; }
+
+TEST_F(ImpostorBake, EachMeshOnceAndAgainOnlyWhenAsked) {
+    Body one(1), three(1);
+    for (Body* body : {&one, &three}) body->torus(1, 0.4, {0, 1, 0});
+    // Three of one mesh, two of them in one another.
+    Baked alone(one.write(folder.path, "one"), 6), placed(three.write(folder.path, "three", {{0, 0, 0}, {0.3f, 0, 0}, {5, 5, 5}}), 6);
+    const std::uint64_t once = 6 * 64 * 64 * 4;
+    for (int view = 0; view < 6; ++view) {
+        const auto a = alone.texels(view), b = placed.texels(view);
+        EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]), 0) << view;
+        // Looking at another view bakes nothing.
+        EXPECT_EQ(raysOf(alone.frames()), view == 0 ? once : 0);
+        EXPECT_EQ(raysOf(placed.frames()), view == 0 ? once : 0);
+    }
+    Frames& frames = placed.frames();
+    frames.set("bake.views", Json(12));
+    frames.run();
+    EXPECT_EQ(raysOf(frames), 2 * once);
+    frames.run(3);
+    EXPECT_EQ(raysOf(frames), 0u);
+    frames.set("bake.resolution", Json(128));
+    frames.run();
+    EXPECT_EQ(raysOf(frames), 8 * once);
+}
+
+TEST_F(ImpostorBake, CoverageIsWhatViewsSee) {
+    Body ball(1), nested(1), rings(1), upright(1);
+    ball.sphere(1);
+    nested.sphere(1);
+    nested.sphere(0.6);
+    upright.torus(1, 0.85, {0, 1, 0});  // two of the axes look through its hole
+    // Narrow ones that look everywhere, far from each other.
+    for (int i = 0; i < 48; ++i) {
+        const double z = 1 - (2 * i + 1) / 96.0, turn = 2.39996323 * i;
+        rings.torus(1, 0.97, {std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z}, 6.0 * i * glm::dvec3(0.2, 0.5, 1));
+    }
+    const Path ballFile = ball.write(folder.path, "ball"), nestedFile = nested.write(folder.path, "nested"), ringsFile = rings.write(folder.path, "rings"),
+               uprightFile = upright.write(folder.path, "upright");
+    const OrderedJson points = {{"points", 4096}};
+    double fewer = 0;
+    for (const int views : {6, 12, 18}) {
+        Baked convex(ballFile, views, points);
+        EXPECT_EQ(convex.coverage(), glm::dvec2(4096, 4096)) << views;
+        // Of the inner shell nothing is seen.
+        Baked shell(nestedFile, views, points);
+        const double outer = 1 / (1 + 0.36);
+        EXPECT_NEAR(shell.share(), outer, 4 * std::sqrt(outer * (1 - outer) / 4096)) << views;
+        Baked narrow(ringsFile, views, {{"points", 1 << 15}});
+        std::printf("rings, %d views: %.4f seen\n", views, narrow.share());
+        EXPECT_GT(narrow.share(), fewer);
+        EXPECT_LT(narrow.share(), 1);
+        fewer = narrow.share();
+        if (views == 12) continue;
+        Baked through(uprightFile, views, points);
+        EXPECT_EQ(through.share(), 1);
+    }
+    EXPECT_GT(fewer, 0.8);
+}
+
+// A mesh that deforms is baked as frame 0 has it, and the frame in which that happens shows what it would have shown.
+TEST_F(ImpostorBake, DeformingMeshesAreBakedAtRest) {
+    GltfModel model;
+    nlohmann::json square = {{"attributes", {{"POSITION", model.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0})}}}};
+    square["targets"] = {{{"POSITION", model.positions({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}}};
+    model.addMesh(square);
+    const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1), weights = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+    model.json["accessors"][std::size_t(times)].update({{"min", {0}}, {"max", {1}}});
+    model.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", weights}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
+    const Path file = model.write(folder.path / "waving.gltf");
+    OrderedJson passes = bakeAndView({{"resolution", 64}, {"views", 6}});
+    passes["view"]["set"] = {{"view", 4}};
+    passes["hits"] = {{"type", "visibility"}};
+    Frames baking(file, {64, 64}, passes, {"view.texels", "hits.depth"}), plain(file, {64, 64}, {{"hits", passes["hits"]}}, {"hits.depth"});
+    for (Frames* frames : {&baking, &plain}) frames->restart(15);
+    for (int frame = 0; frame < 2; ++frame) {
+        baking.run();
+        plain.run();
+        EXPECT_EQ(baking.image("hits.depth").values, plain.image("hits.depth").values) << frame;
+    }
+    std::size_t seen = 0;
+    for (const ShownTexel& t : baking.records<ShownTexel>("view.texels")) {
+        if (t.alpha == 0) continue;
+        ++seen;
+        ASSERT_NEAR(t.position.z, 0, 1e-6);
+    }
+    EXPECT_GT(seen, 1500u);
+}
+
+class ImpostorBodies : public ProgramTest {};
+
+// Bodies that trace rays find the same texels, but where edges decide.
+TEST_F(ImpostorBodies, Agree) {
+    const auto devices = gpu::listDevices();
+    const gpu::DeviceFacts& device = devices[gpu::chooseDevice(devices, "")];
+    std::vector<std::string> bodies{std::string(nameOf(chooseRayBody(device, "")))};
+    for (const char* name : {"lane", "ray_query"})
+        if (name != bodies[0] && (device.rayQuery || name == std::string("lane"))) bodies.push_back(name);
+    ASSERT_GT(bodies.size(), 1u);
+    OrderedJson graph = {{"format", 1},
+                         {"scene", (sourceFolder / "scenes/chessboard.json").string()},
+                         {"passes", bakeAndView({{"mesh", "white_knight"}, {"resolution", 64}, {"views", 6}})},
+                         {"show", "view.color"}};
+    write("knight.json", graph);
+    std::vector<ShownTexel> first;
+    for (const std::string& body : bodies) {
+        const Path out = run(body, folder / "knight.json", {"--size", "192x128", "--frames", "1", "--rays", body, "--dump", "view.texels", "--check-bounds"});
+        ASSERT_FALSE(HasFailure());
+        const std::vector<std::byte> npy = readBytes(out / "view.texels.0.npy");
+        std::vector<ShownTexel> texels(192 * 128);
+        const std::size_t bytes = texels.size() * sizeof(ShownTexel);
+        ASSERT_GT(npy.size(), bytes);
+        std::memcpy(texels.data(), npy.data() + npy.size() - bytes, bytes);
+        if (first.empty()) first = texels;
+        std::size_t seen = 0, different = 0;
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            seen += first[i].alpha > 0;
+            different += first[i].alpha != texels[i].alpha || std::abs(first[i].depth - texels[i].depth) > 1e-4f ||
+                         glm::distance(first[i].normal, texels[i].normal) > 1e-2f || first[i].material != texels[i].material;
+        }
+        std::printf("%s: %zu texels seen, %zu differ\n", body.c_str(), seen, different);
+        EXPECT_GT(seen, 2000u);
+        EXPECT_LE(different, seen / 500);
+    }
+}
+
+TEST_F(ImpostorBodies, WrongParametersAreNamed) {
+    write("wrong.json", {{"format", 1},
+                         {"scene", (sourceFolder / "scenes/chessboard.json").string()},
+                         {"passes", bakeAndView({{"mesh", "white_nkight"}})},
+                         {"show", "view.color"}});
+    const auto run = [&](const std::string& set) {
+        Output output = lodestir({"run", (folder / "wrong.json").string(), "--size", "64x64", "--set", set, "--out", (folder / "out").string()});
+        EXPECT_EQ(output.exitCode, 1) << output.err;
+        return output;
+    };
+    EXPECT_NE(run("bake.views=9").err.find("set \"views\" to 6, 12 or 18"), std::string::npos);
+    EXPECT_NE(run("bake.resolution=200").err.find("set \"resolution\" to 128"), std::string::npos);
+    const Output output = run("bake.views=6");
+    EXPECT_NE(output.err.find("chessboard.json: no instance shows a mesh \"white_nkight\""), std::string::npos) << output.err;
+    EXPECT_NE(output.err.find("did you mean \"white_knight\""), std::string::npos) << output.err;
+}
+
+}  // namespace
+}  // namespace lodestir::test
