@@ -43,7 +43,8 @@ private:
     float radius_ = 0;
 };
 
-/// The two-sided (Hausdorff) distance in space between levels that need not share vertices, object units; sampled at the points that LodReference::measure takes.
+/// The two-sided (Hausdorff) distance in space between levels that need not share vertices, object units; sampled at the points that
+/// LodReference::measure takes.
 LODESTIR_API float distanceBetween(const MeshLevel& a, const MeshLevel& b);
 
 /// UVs that tell points apart: there are some, and they span an area.
