@@ -56,7 +56,8 @@ protected:
     inline static const std::string levels = (sourceFolder / "graphs/path_tracer_lod.json").string();
 };
 
-// With levels by their error on the screen, 64 times the triangles cost less than a tenth more steps; at its finest the model costs two fifths more.
+// With levels by their error on the screen, 64 times the triangles cost less than a tenth more steps. At its finest the model costs two fifths more where eight
+// lanes share a walk, a fifth where each walks by itself.
 TEST_F(NeedsTest, ATenthBuysSixtyFourTimesTheTriangles) {
     auto rows = study(studyOf({"boulders_1x.json", "boulders_64x.json"}, {{"finest", technique("finest")}, {"screen error", technique("screen_error")}}));
     std::map<std::string, double> growth;
@@ -68,7 +69,8 @@ TEST_F(NeedsTest, ATenthBuysSixtyFourTimesTheTriangles) {
     }
     EXPECT_LT(growth["screen error"], 1.10);
     EXPECT_GT(growth["screen error"], 0.95);
-    EXPECT_GT(growth["finest"], 1.3);
+    EXPECT_GT(growth["finest"], 1.1);
+    EXPECT_GT(growth["finest"] - 1, 5 * (growth["screen error"] - 1));
     const std::vector<double> triangles = counted(rows["finest"], "triangles");
     const double ground = 256 * 256 * 2;
     EXPECT_EQ(triangles, (std::vector<double>{4096.0 * 4800 + ground, 4096.0 * 307200 + ground}));
