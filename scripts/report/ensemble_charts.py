@@ -4,6 +4,7 @@ import numpy
 
 from .drawing import GREY, INK, Drawing, number
 from .plots import Point, at_frame, devices, draw_forest, draw_points, slug
+from .results import real
 
 
 def ensemble_label(r, c, f):
@@ -53,7 +54,7 @@ def blocks(r, scene):
         if entry is None:
             continue
         c, f, cell = entry
-        sigmas = numpy.array([numpy.nan if value is None else value for value in cell["blockSigmas"]], float)
+        sigmas = numpy.array([real(value) for value in cell["blockSigmas"]], float)
         values = sigmas.reshape(-1, cell["blockColumns"])
         image = axes.pcolormesh(values, cmap="RdBu_r", vmin=-5, vmax=5, edgecolors="white", linewidth=0.3)
         axes.set(aspect="equal", ylim=(values.shape[0], 0))

@@ -7,7 +7,7 @@ from matplotlib.patches import Patch
 
 from .drawing import GREY, INK, Drawing, color_of, curve_style, number, scale, with_interval
 from .plots import Point, at_frame, devices, draw_forest, draw_points, slug, with_unit
-from .results import configuration_of
+from .results import configuration_of, real
 
 
 def shown_frame(r, metric=None):
@@ -104,7 +104,7 @@ def frame_curves(r, scene, metric, relative):
                 ratio = cell["metrics"].get(name, {}).get("againstStart") if cell else None
                 if ratio is None:
                     continue
-                error, half = (numpy.nan if ratio[key] is None else ratio[key] for key in ("mean", "halfWidth"))
+                error, half = real(ratio["mean"]), real(ratio["halfWidth"])
             label = configuration.label
             curves.setdefault(label, (r.place[label], []))[1].append(
                 Point(float(r.frames[f]), error, f"{label}, frame {r.frames[f]}: {with_interval(error, half)}", (error - half, error + half)))
@@ -241,27 +241,32 @@ def ablation(r, scene, metric):
     return draw_ratios(r, scene, metric, "ablation", found, names, title, f"{metric['name']} without ÷ with it")
 
 
+def decompositions_of(r, scene, frame, metric):
+    """{configuration: {"squaredBias" and "variance": mean and half of the interval}}, of those that are shown."""
+    here = (r.scenes[scene], r.frames[frame], metric["name"])
+    found = {configuration_of(parts): {key: (real(parts[key]["mean"]), real(parts[key]["halfWidth"])) for key in ("squaredBias", "variance")}
+             for parts in r.summary["decompositions"] if (parts["scene"], parts["frame"], parts["metric"]) == here}
+    return {configuration: parts for configuration, parts in found.items() if configuration in r.configurations}
+
+
 def bias_variance(r, scene, metric):
     """The error of one run as what no number of runs takes away, and the rest."""
     f = shown_frame(r)
-    found = [(configuration_of(parts), parts) for parts in r.summary["decompositions"]
-             if (parts["scene"], parts["frame"], parts["metric"]) == (r.scenes[scene], r.frames[f], metric["name"])]
-    found = [(configuration, parts) for configuration, parts in found if configuration in r.configurations]
+    found = decompositions_of(r, scene, f, metric)
     if not found:
         return None
     title = f"Bias and variance of {metric['name']}{at_frame(r, f)}"
     d = Drawing(slug(r.scenes[scene], "bias_variance", metric["name"]), title, height=0.5 + 0.24 * len(found))
     axes = d.axes
-    for row, (configuration, parts) in enumerate(found):
+    for row, (configuration, parts) in enumerate(found.items()):
         for shift, (key, text, place) in zip((-0.19, 0.19), (("squaredBias", "squared bias", 1), ("variance", "variance of a run", 0))):
-            mean, half = parts[key]["mean"], parts[key]["halfWidth"]
-            mean, half = (numpy.nan if value is None else value for value in (mean, half))
+            mean, half = parts[key]
             (bar,) = axes.barh(row + shift, mean, height=0.36, color=color_of(place))
             d.hint(bar, f"{configuration.label}, {text}: {with_interval(mean, half)}")
             if numpy.isfinite(half):
                 axes.plot([mean - half, mean + half], [row + shift] * 2, color=INK, linewidth=0.7)
     axes.axvline(0, color=INK, linewidth=0.6)
-    axes.set_yticks(range(len(found)), [configuration.label for configuration, _ in found])
+    axes.set_yticks(range(len(found)), [configuration.label for configuration in found])
     axes.set(ylim=(len(found) - 0.4, -0.6), xlabel=with_unit(metric))
     axes.grid(axis="y", visible=False)
     axes.tick_params(axis="y", length=0)

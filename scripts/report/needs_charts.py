@@ -3,9 +3,9 @@
 import numpy
 
 from .drawing import GREY, Drawing, curve_style, number, with_interval
-from .error_charts import shown_frame
+from .error_charts import decompositions_of, shown_frame
 from .plots import Point, at_frame, count_with_unit, devices, draw_points, slug, with_unit
-from .results import configuration_of
+from .results import STEPS
 from .statistics import estimate_difference
 
 ENOUGH = 1.1  # times the least error: what no eye asks more for
@@ -30,13 +30,6 @@ def error_vs_count(r, scene, metric, count):
     return draw_points(d, curves, count_with_unit(count), with_unit(metric), True, metric["fromZero"])
 
 
-def geometry_of(r, scene, frame, metric):
-    """{configuration: squared bias and half of its interval}"""
-    return {configuration_of(parts): [numpy.nan if value is None else value for value in (parts["squaredBias"]["mean"], parts["squaredBias"]["halfWidth"])]
-            for parts in r.summary["decompositions"]
-            if (parts["scene"], parts["frame"], parts["metric"]) == (r.scenes[scene], r.frames[frame], metric["name"])}
-
-
 def knee(points):
     """The point with the least x whose y is within ENOUGH of the least; None where no point has a place on the axes."""
     points = [p for p in points if p.x > 0 and p.y > 0]
@@ -47,21 +40,23 @@ def knee(points):
 def needs(r, scene, metric, count):
     """Of the baseline, which has a knob for the model and, last, one for the effort: the error against the size of the model, a curve an effort, and what of
     it is the model's. Of each curve the least model that is enough is marked."""
+    if not metric["fromZero"] or count == STEPS:  # which are the effort's as well
+        return None
     frame, curves = shown_frame(r, metric), {}
-    bias, geometry = geometry_of(r, scene, frame, metric), {}  # of each model where the effort tells it best
+    parts, geometry = decompositions_of(r, scene, frame, metric), {}  # of each model where the effort tells it best
     for c in measured_at(r, scene, frame):
         configuration = r.configurations[c]
         if configuration.technique != r.summary["baseline"] or len(configuration.knobs) < 2:
             continue
         effort = configuration.point
         curves.setdefault(effort, []).append(point_of(r, scene, c, frame, metric, count))
-        if configuration in bias:
-            mean, half = bias[configuration]
+        if configuration in parts:
+            mean, half = parts[configuration]["squaredBias"]
             about = f"{configuration.curve}: {number(r.counts[count][scene, c, frame])} {count}, squared bias {with_interval(mean, half)}"
             told = half if numpy.isfinite(half) else numpy.inf
             if configuration.curve not in geometry or told < geometry[configuration.curve][0]:
                 geometry[configuration.curve] = told, Point(r.counts[count][scene, c, frame], mean, about, (mean - half, mean + half))
-    if not curves or not metric["fromZero"] or count == "steps":  # which are the effort's as well
+    if not curves:
         return None
     drawn = {f"all, {effort}": ((i,), sorted(points, key=lambda p: p.x)) for i, (effort, points) in enumerate(curves.items())}
     efforts = list(drawn.values())
@@ -88,7 +83,7 @@ def cost_vs_model(r, count):
     where pixels are what grows."""
     f, curves = shown_frame(r), {}
     base = [c for c, configuration in enumerate(r.configurations) if configuration.technique == r.summary["baseline"]]
-    if len(base) != 1 or len(r.scenes) < 2 or len(set(r.pixels)) > 1 or count == "steps":
+    if len(base) != 1 or len(r.scenes) < 2 or len(set(r.pixels)) > 1 or count == STEPS:
         return None
     for c, configuration in enumerate(r.configurations):
         for s in numpy.argsort(r.counts[count][:, base[0], f]):
@@ -105,11 +100,11 @@ def cost_vs_model(r, count):
 
 
 def cost_name(r):
-    return "steps a pixel" if "steps" in r.counts else f"time of the frame (ms, {devices(r)})"
+    return count_with_unit(STEPS) if STEPS in r.counts else f"time of the frame (ms, {devices(r)})"
 
 
 def cost_of(r, scene, c, frame):
-    return r.counts["steps"][scene, c, frame] if "steps" in r.counts else r.ms[scene, c, frame]
+    return r.counts[STEPS][scene, c, frame] if STEPS in r.counts else r.ms[scene, c, frame]
 
 
 def error_at(cost, points):

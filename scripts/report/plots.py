@@ -7,6 +7,7 @@ import numpy
 from matplotlib.lines import Line2D
 
 from .drawing import INK, color_of, curve_style, scale
+from .results import STEPS
 
 
 def slug(*parts):
@@ -22,7 +23,7 @@ def with_unit(metric):
 
 
 def count_with_unit(count):
-    return count + (" a pixel" if count == "steps" else "")
+    return count + (" a pixel" if count == STEPS else "")
 
 
 def at_frame(r, frame):

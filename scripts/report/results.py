@@ -34,6 +34,7 @@ def parse(path, text):
 
 
 # What summaries of errors didn't always have, and what stands for it.
+STEPS = "steps"  # the count of nodes that rays visit, a pixel (framework/study/study_file.h, stepsName)
 LATER = {"counts": [], "comparisons": [], "exponents": [], "decompositions": [], "sequences": [], "outcomes": None}
 
 

@@ -8,7 +8,7 @@ from .drawing import number
 from .ensemble_charts import ensemble_cells, ensemble_label
 from .error_charts import baseline_of, span_text
 from .plots import count_with_unit, slug
-from .results import configuration_of, real
+from .results import STEPS, configuration_of, real
 
 
 def cell(text="", value=None, interval="", kind=""):
@@ -58,7 +58,7 @@ def budgets(r, s):
     for place, c, f, found in r.measured():
         if place == s and "budget" in found:
             met, unit = found["budget"], r.summary["equal"]
-            took = {"ms": r.ms, "rays a pixel": r.rays, "steps a pixel": r.counts.get("steps")}[unit][s, c, f]
+            took = {"ms": r.ms, "rays a pixel": r.rays, count_with_unit(STEPS): r.counts.get(STEPS)}[unit][s, c, f]
             range_ = words("" if met["inRange"] else "out of its knob's range")
             rows.append([cell(r.labels[c]), cell(str(r.frames[f])), plain(met["given"]), plain(met["reached"]), plain(took), range_])
     return table(f"budget.{slug(r.scenes[s])}", ["technique", "frame", f"given ({unit})", "when chosen", "measured", ""], rows, title="Equal budgets")
