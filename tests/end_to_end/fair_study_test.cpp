@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace lodestir::test {
 namespace {
@@ -39,10 +38,7 @@ protected:
         EXPECT_EQ(output.exitCode, 0) << output.err;
         said = output.err;
         told = output.out;
-        std::map<std::string, std::vector<OrderedJson>> rows;
-        std::istringstream lines(readText(folder / out / "results.jsonl"));
-        for (std::string line; std::getline(lines, line);) rows[OrderedJson::parse(line)["technique"]].push_back(OrderedJson::parse(line));
-        return rows;
+        return readRowsByTechnique(folder / out / "results.jsonl");
     }
     static std::map<std::string, OrderedJson> metricsOf(const std::map<std::string, std::vector<OrderedJson>>& rows) {
         std::map<std::string, OrderedJson> metrics;

@@ -3,8 +3,6 @@
 // is shown.
 #include "program.h"
 
-#include <sstream>
-
 namespace lodestir::test {
 namespace {
 
@@ -15,10 +13,7 @@ protected:
         write("study.json", json);
         const Output output = lodestir({"study", (folder / "study.json").string(), "--out", (folder / "out").string()});
         EXPECT_EQ(output.exitCode, 0) << output.err;
-        std::map<std::string, std::vector<OrderedJson>> rows;
-        std::istringstream lines(readText(folder / "out/results.jsonl"));
-        for (std::string line; std::getline(lines, line);) rows[OrderedJson::parse(line)["technique"]].push_back(OrderedJson::parse(line));
-        return rows;
+        return readRowsByTechnique(folder / "out/results.jsonl");
     }
     static OrderedJson technique(const char* mode, OrderedJson more = OrderedJson::object()) {
         OrderedJson json{{"graph", levels}, {"variant", "no accumulation"}, {"set", {{"lod.mode", mode}, {"trace.spp", 4}}}};

@@ -62,11 +62,9 @@ TEST_F(OutcomesRun, PrintsTheMatrix) {
     EXPECT_NEAR(std::stod(cells[4][6].substr(7)), 1, 0.4) << "at equal rays the same technique has the same error, a quarter of 4 samples', four times 64's";
     for (const std::size_t column : {4u, 5u, 6u}) EXPECT_EQ(cells[5][column], "-") << "nothing switches there";
 
-    std::istringstream rows(readText(folder / "out/results.jsonl"));
-    for (std::string line; std::getline(rows, line);) {
-        const OrderedJson row = OrderedJson::parse(line);
-        EXPECT_EQ(row["metrics"].contains("mse.switched"), row["scene"] == "globe") << line;
-        EXPECT_EQ(row["metrics"].contains("step_flip"), row["frame"] != -2) << line;
+    for (const OrderedJson& row : readRows(folder / "out/results.jsonl")) {
+        EXPECT_EQ(row["metrics"].contains("mse.switched"), row["scene"] == "globe") << row;
+        EXPECT_EQ(row["metrics"].contains("step_flip"), row["frame"] != -2) << row;
     }
 
     const Output strict = study("switched");

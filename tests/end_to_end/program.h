@@ -13,7 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,18 @@ protected:
 
     void write(const Path& name, const OrderedJson& json) { writeFile(folder / name, json.dump(2)); }
     OrderedJson readJson(const Path& path) { return OrderedJson::parse(readText(path)); }
+    /// The lines of a study's results.
+    std::vector<OrderedJson> readRows(const Path& path) {
+        std::vector<OrderedJson> rows;
+        std::istringstream lines(readText(path));
+        for (std::string line; std::getline(lines, line);) rows.push_back(OrderedJson::parse(line));
+        return rows;
+    }
+    std::map<std::string, std::vector<OrderedJson>> readRowsByTechnique(const Path& path) {
+        std::map<std::string, std::vector<OrderedJson>> rows;
+        for (const OrderedJson& row : readRows(path)) rows[row["technique"]].push_back(row);
+        return rows;
+    }
 
     /// Runs a graph into folder/out; fails the test unless it ends well and validation is silent. Returns the folder.
     Path run(const std::string& out, const Path& graph, Arguments arguments) {

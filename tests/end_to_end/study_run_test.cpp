@@ -34,12 +34,7 @@ protected:
         EXPECT_NE(output.err.find("install"), std::string::npos) << output.err;
         return false;
     }
-    std::vector<OrderedJson> rows(const Path& file) {
-        std::vector<OrderedJson> all;
-        std::istringstream lines(readText(folder / file));
-        for (std::string line; std::getline(lines, line);) all.push_back(OrderedJson::parse(line));
-        return all;
-    }
+    std::vector<OrderedJson> rows(const Path& file) { return readRows(folder / file); }
     /// By what a row is of: what was measured, times aside.
     std::map<std::string, OrderedJson> measured(const std::vector<OrderedJson>& all) {
         std::map<std::string, OrderedJson> byRun;

@@ -246,14 +246,16 @@ private:
             const tinygltf::Value& value = extras.Get(key).Get(static_cast<int>(source[level]));
             return value.IsNumber() ? static_cast<float>(value.GetNumberAsDouble()) : 0.0f;
         };
+        // Levels that say nothing would be taken for as good as the finest, and be shown from the nearest.
+        std::vector<float> measured;
+        if (mesh.levels.size() > 1 && !has("lod_error")) {
+            measured = distancesToFinest(mesh.levels);
+            import_.note(fmt::format("levels of detail (node {}) bring no \"lod_error\": they were measured now, in space alone", node));
+        }
         for (std::size_t i = 0; i < mesh.levels.size(); ++i) {
-            // Levels that say nothing would be taken for as good as the finest, and be shown from the nearest.
-            const float error = i == 0 ? 0 : has("lod_error") ? read("lod_error", i) : distanceBetween(mesh.levels[0], mesh.levels[i]);
-            if (i > 0) mesh.levels[i].error = std::max(error, mesh.levels[i - 1].error);
+            if (i > 0) mesh.levels[i].error = std::max(measured.empty() ? read("lod_error", i) : measured[i], mesh.levels[i - 1].error);
             mesh.levels[i].coverage = read("MSFT_screencoverage", i);
         }
-        if (mesh.levels.size() > 1 && !has("lod_error"))
-            import_.note(fmt::format("levels of detail (node {}) bring no \"lod_error\": they were measured now, in space alone", node));
     }
 
     void addCamera(int index, std::uint32_t place) {

@@ -132,11 +132,19 @@ bool hasUsefulUvs(const MeshLevel& level) {
     });
 }
 
-float distanceBetween(const MeshLevel& a, const MeshLevel& b) {
-    const auto oneWay = [](const MeshLevel& from, const MeshLevel& to) {
-        return farthest(from.positions, from.triangles, spread(from.positions, from.triangles, spreadPoints), TriangleTree(to.positions, to.triangles));
+std::vector<float> distancesToFinest(const std::vector<MeshLevel>& levels) {
+    const auto oneWay = [](const MeshLevel& from, const std::vector<SurfacePoint>& points, const TriangleTree& to) {
+        return farthest(from.positions, from.triangles, points, to);
     };
-    return std::max(oneWay(a, b), oneWay(b, a));
+    const auto pointsOf = [](const MeshLevel& level) { return spread(level.positions, level.triangles, spreadPoints); };
+    const MeshLevel& finest = levels.front();
+    const TriangleTree surface(finest.positions, finest.triangles);
+    const std::vector<SurfacePoint> points = pointsOf(finest);
+    std::vector<float> distances{0};
+    for (std::size_t i = 1; i < levels.size(); ++i)
+        distances.push_back(std::max(oneWay(levels[i], pointsOf(levels[i]), surface),
+                                     oneWay(finest, points, TriangleTree(levels[i].positions, levels[i].triangles))));
+    return distances;
 }
 
 LodReference::LodReference(const MeshLevel& finest)

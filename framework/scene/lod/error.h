@@ -43,9 +43,9 @@ private:
     float radius_ = 0;
 };
 
-/// The two-sided (Hausdorff) distance in space between levels that need not share vertices, object units; sampled at the points that
+/// The two-sided (Hausdorff) distance in space of each level to the first, object units; levels need not share vertices. Sampled at the points that
 /// LodReference::measure takes.
-LODESTIR_API float distanceBetween(const MeshLevel& a, const MeshLevel& b);
+LODESTIR_API std::vector<float> distancesToFinest(const std::vector<MeshLevel>& levels);
 
 /// UVs that tell points apart: there are some, and they span an area.
 LODESTIR_API bool hasUsefulUvs(const MeshLevel& level);
