@@ -31,7 +31,7 @@ public:
 
     bool isOpen() const { return handle_ >= 0; }
 
-    /// Gives a file without a name (O_TMPFILE) one that nobody has. False when it can't, errno says why.
+    /// Gives a file without a name (O_TMPFILE) its first one. False when it can't, errno says why.
     bool name(const Path& name) const {
         const std::string self = "/proc/self/fd/" + std::to_string(handle_);
         return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
@@ -109,13 +109,16 @@ void makeFolder(const Path& folder) {
     if (reason) throw Error(Where{folder.string()}, "the folder cannot be made: " + reason.message());
 }
 
-/// Takes a name beside the target that no other process or thread has, with take(name), which fails with EEXIST where one has it. The name
-/// starts with a dot, so that listings and globs pass over it.
-template <class Take> Path reserveAside(const Path& target, const Take& take) {
+/// A name beside the target; it starts with a dot, so that listings and globs pass over it.
+Path nameAside(const Path& target, const std::string& mark) {
+    return target.parent_path() / ("." + target.stem().string() + "." + mark + target.extension().string());
+}
+
+/// Makes an empty file beside the target by a name that no other process or thread has.
+Path reserveAside(const Path& target) {
     for (int attempt = 0;; ++attempt) {
-        Path aside = target.parent_path() / ("." + target.stem().string() + "." + std::to_string(::getpid()) + "-" +
-                                             std::to_string(attempt) + target.extension().string());
-        if (take(aside)) return aside;
+        Path aside = nameAside(target, std::to_string(::getpid()) + "-" + std::to_string(attempt));
+        if (File(aside, O_WRONLY | O_CREAT | O_EXCL).isOpen()) return aside;
         if (errno != EEXIST) throw Error(Where{target.string()}, "cannot be written: " + std::generic_category().message(errno));
     }
 }
@@ -141,23 +144,20 @@ bool isDevice(const Path& target) {
     return fs::exists(status) && !fs::is_regular_file(status);
 }
 
-/// Writes into a file that has no name until it is whole, so that not even a killed process leaves a scrap. False where the file system has
-/// no such files.
+/// Writes into a file that has no name until it is whole. Between a name beside the target and the target's own a writer may be killed: that
+/// name is one for all writers, so that there is never more than one scrap, and the next writer takes it away. False where the file system has
+/// no such files, or where another writer has just taken this one's away.
 bool writeNameless(const Path& target, std::span<const std::byte> bytes) {
     File file(target.has_parent_path() ? target.parent_path() : Path("."), O_WRONLY | O_TMPFILE, target);
     if (!file.isOpen()) return false;
     file.write(bytes);
     if (file.name(target)) return true;
-    if (errno != EEXIST) return false;
-    const Path aside = reserveAside(target, [&](const Path& name) { return file.name(name); });
-    try {
-        replace(aside, target);
-    } catch (...) {
-        std::error_code none;
-        fs::remove(aside, none);
-        throw;
-    }
-    return true;
+    const Path aside = nameAside(target, "new");
+    while (!file.name(aside))
+        if (errno != EEXIST || (::unlink(aside.c_str()) != 0 && errno != ENOENT)) return false;
+    if (::rename(aside.c_str(), target.c_str()) == 0) return true;
+    ::unlink(aside.c_str());
+    return false;
 }
 
 }  // namespace
@@ -189,7 +189,7 @@ void writeAside(const Path& path, const std::function<void(const Path& aside)>& 
     const Path target = followed(path);
     if (isDevice(target)) return write(target);
     makeFolder(target.parent_path());
-    const Path aside = reserveAside(target, [](const Path& name) { return File(name, O_WRONLY | O_CREAT | O_EXCL).isOpen(); });
+    const Path aside = reserveAside(target);
     try {
         write(aside);
         replace(aside, target);

@@ -8,13 +8,13 @@
 // uvs:        texture coordinates modulo 1, in 1/65536
 // materials:  finest level: index in World.materials; above: share of each place of the palette, in 15ths, a nibble each
 #include "base/pack.glsl"
+#include "texture/material_map.glsl"
 #include "impostor/views.glsl"
 
 const uint TEXEL_TWO_SIDED = 1u;  // of a material that is seen from both sides: turn the normal towards the viewer, don't drop the texel
 const uint TEXEL_BACK = 2u;       // the view saw the back of a triangle; its normal was turned
 const uint TEXEL_BUMPED = 4u;     // the normal lies more than 18 degrees off the triangle's: ask depths which side is seen
 
-const float DENSITY_NONE = -1e30;  // no texture coordinates, or all the same
 const float LEAST_ALPHA = 1.0 / 255.0;
 
 struct ImpostorTexel {
@@ -75,4 +75,10 @@ ImpostorTexel texelAt(Impostors impostors, uint mesh, uint level, uint view, uve
     ImpostorTexel t = unpackTexel(ImpostorGeometry(object.geometry).at[i], UintArray(object.uvs).at[i], UintArray(object.materials).at[i], level);
     if (level == 0u && t.material != NONE) t.counts = 15u << (4u * UintArray(object.places).at[t.material]);
     return t;
+}
+
+/// What places and turns the texel: without texture coordinates and materials.
+ImpostorTexel shapeAt(Impostors impostors, uint mesh, uint level, uint view, uvec2 texel) {
+    uint i = texelIndex(impostors, level, view, texel);
+    return unpackTexel(ImpostorGeometry(impostors.objects.at[mesh].geometry).at[i], 0u, NONE, level);
 }

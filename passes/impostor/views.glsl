@@ -56,3 +56,10 @@ uint texelIndex(Impostors impostors, uint level, uint view, uvec2 texel) {
     uint n = levelResolution(impostors, level), before = (impostors.resolution * impostors.resolution - n * n) / 3u * 4u;
     return before * impostors.views + (view * n + texel.y) * n + texel.x;
 }
+
+/// Level of the texel that is element `index` of the arrays.
+uint levelOfTexel(Impostors impostors, uint index) {
+    uint level = 0u;
+    while (level + 1u < impostors.levels && texelIndex(impostors, level + 1u, 0u, uvec2(0u)) <= index) ++level;
+    return level;
+}

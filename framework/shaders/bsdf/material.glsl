@@ -60,8 +60,10 @@ void applyLayers(inout Bsdf b, Surface s, LayerValues v) {
 /// Reads the material at s. Back faces scatter like front faces; on a solid's back face the viewer is inside.
 Bsdf bsdfAt(World w, Surface s) {
     uint m = s.material, flags = w.materials.at[m].flags;
-    uvec3 corners = cornersOf(w, s.primitive);
-    vec4 base = w.materials.at[m].baseColor * vertexColorOn(w, m, corners, s.barycentrics);
+    bool isTexel = TEXEL_SURFACES != 0 && s.primitive == NONE;
+    uvec3 corners = isTexel ? uvec3(0u) : cornersOf(w, s.primitive);
+    vec4 base = w.materials.at[m].baseColor;
+    if (!isTexel) base *= vertexColorOn(w, m, corners, s.barycentrics);
     float roughness = w.materials.at[m].roughness, metallic = w.materials.at[m].metallic, transmission = w.materials.at[m].transmission;
     uint layers = SCENE_LAYERS != 0 ? w.materials.at[m].layers : NONE;
     LayerValues values;
@@ -79,7 +81,8 @@ Bsdf bsdfAt(World w, Surface s) {
         else if (map == 0u) slot = w.materials.at[m].baseColorMap;
         else if (map == 1u) slot = w.materials.at[m].metallicRoughnessMap;
         else slot = w.materials.at[m].transmissionMap;
-        vec4 value = readMap(w, slot, s.uv, corners, s.barycentrics);
+        vec2 uv = slot.uvSet != 0u && !isTexel ? uvOn(w, corners, s.barycentrics, slot.uvSet) : s.uv;
+        vec4 value = readMap(w, slot, uv, isTexel ? mapLevel(w, slot, s.density) : 0.0);
         if (map >= 3u) {
             applyLayerMap(values, map - 3u, value, w.layers.at[layers].coatNormalScale);
         } else if (map == 0u) {

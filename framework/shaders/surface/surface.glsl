@@ -14,10 +14,11 @@ struct Surface {
     vec3 shadingNormal;  // unit, towards the viewer; its mirror direction lies above the triangle
     vec2 uv;             // set 0
     vec2 barycentrics;
-    uint primitive, instance, material;
+    uint primitive, instance, material;  // primitive NONE: a texel of an impostor, which has texture coordinates of set 0 alone
     bool frontFace;      // the viewer sees the triangle's front
     vec3 view;           // unit, towards the viewer
     mat3 frame;          // tangent, bitangent, normal without normal map, of the front side; tangents only where the material uses them
+    float density;       // of a texel: log2 of texture coordinates per side of it, which textures are read for; else DENSITY_NONE
 };
 
 /// Bends the shading normal n just so far that the mirror direction of `view` is not below the surface with normal ng
@@ -80,6 +81,7 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     // Files with normals that point inwards are common enough: only the normal's line is trusted, the side comes from the winding.
     n = dot(n, front) < 0.0 ? -n : n;
     s.frame = mat3(vec3(0.0), vec3(0.0), n);
+    s.density = DENSITY_NONE;
     bool mapped = w.materials.at[s.material].normalMap.texture != NONE;
     if (mapped || (SCENE_LAYERS != 0 && w.materials.at[s.material].layers != NONE)) s.frame = tangentFrame(w, placement, mirror, corners, hit.barycentrics, n);
     if (mapped) n = mapNormal(w, s, corners, s.frame);

@@ -3,6 +3,9 @@
 #ifndef SCENE_LAYERS
 #define SCENE_LAYERS 1  // MaterialRecord.layers
 #endif
+#ifndef TEXEL_SURFACES
+#define TEXEL_SURFACES 0  // surfaces without a triangle (Surface.primitive NONE), of shaders that define it as 1 before they include anything
+#endif
 #ifndef SCENE_MASKS
 #define SCENE_MASKS 1   // MATERIAL_MASK
 #endif

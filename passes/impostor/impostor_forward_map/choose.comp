@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Which instances are drawn, at which level, and by which views. Argument 0: counts the tiles for all levels as they are wished and coarser by 1 to 7;
+// 1: takes the first of these that the budget allows.
+#version 460
+#include "pass.glsl"
+#include "base/math.glsl"
+#include "impostor/texel_surface.glsl"
+#include "numbering.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Totals { uint64_t at[]; };
+
+// Distance over radius from 1 / (2 N) of which on nothing is drawn anyway.
+const float NEAREST = 1e-3;
+
+float wishedLevel(World w, Impostors made, float radius, float scale, float distance) {
+    if (params.level == level_fixed) return params.bias;
+    float near = max(distance - scale * radius, NEAREST * scale * radius);
+    if (params.level == level_distance) return log2(near / (scale * radius)) + params.bias;
+    float pixel = w.camera.orthographic != 0u ? w.camera.pixelAngle : near * w.camera.pixelAngle;
+    return log2(pixel / (scale * texelSide(made, radius, 0u))) - 0.25 + params.bias;  // a little finer than pixels, so that no pixel is left out
+}
+
+/// The wish rounded down, but the level of last frame as long as it isn't `hysteresis` beyond its borders.
+uint heldLevel(float wish, uint last, uint most) {
+    float held = floor(wish);
+    if (last != 0u && historyValid()) {
+        float before = float(last - 1u);
+        if (wish > before - params.hysteresis && wish < before + 1.0 + params.hysteresis) held = before;
+    }
+    return uint(clamp(held, 0.0, float(most)));
+}
+
+/// A bit for each view that stands on the camera's side. `towards`: from the object to the camera, unit, world space.
+uint keptViews(Impostors made, Placement placement, vec3 towards) {
+    uint views = 0u;
+    for (uint view = 0u; view < made.views; ++view) {
+        vec3 direction = normalize(placeVector(placement, viewDirection(made.views, view)));
+        if (dot(direction, towards) >= params.viewLimit) views |= 1u << view;
+    }
+    return views;
+}
+
+void main() {
+    if (skip()) return;
+    uint instance = uint(pixel().x);
+    World w = world();
+    Impostors made = impostors();
+    InstanceRecord record = w.instances.at[instance];
+    ImpostorRecord object = made.objects.at[record.mesh];
+    bool isDrawn = object.radius > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u;
+    Placement placement = placementOf(w, instance);
+    float scale = placementScale(placement);
+    vec3 way = w.camera.position - placePoint(placement, object.center);
+    if (dot(-way, w.camera.forward) < -scale * object.radius) isDrawn = false;
+
+    bool isKnown = instance < levelsCount();
+    uint level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), isKnown ? levels(instance) : 0u, made.levels - 1u);
+    vec3 towards = w.camera.orthographic != 0u ? -w.camera.forward : safeNormalize(way, -w.camera.forward);
+    uint views = isDrawn ? keptViews(made, placement, towards) : 0u;
+
+    Totals sums = Totals(passBlock().totals.address);
+    if (argument(0) == 0u) {
+        for (uint coarser = 0u; coarser < 8u; ++coarser)
+            atomicAdd(sums.at[coarser], uint64_t(bitCount(views) * square(tilesAcross(made, min(level + coarser, made.levels - 1u)))));
+        return;
+    }
+    uint coarser = 0u;
+    while (coarser < 7u && sums.at[coarser] > uint64_t(params.tiles)) ++coarser;
+    if (isKnown && isDrawn) storeLevels(instance, level + 1u);
+    level = min(level + coarser, made.levels - 1u);
+    storeDrawn(instance, Drawn(level, views, bitCount(views) * square(tilesAcross(made, level)), 0u));
+}

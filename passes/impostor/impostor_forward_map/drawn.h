@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What of an instance's impostor is drawn in a frame.
+#ifndef LODESTIR_DRAWN_H
+#define LODESTIR_DRAWN_H
+#include "base/shared.h"
+
+LODESTIR_SHARED_BEGIN
+
+// Tiles of 8x8 texels (4x4 where a level has no more) are numbered through the frame: instance after instance, in each view after view that is kept.
+struct Drawn {
+    uint level;
+    uint views;   // a bit for each that is kept; 0: the instance is drawn otherwise, or not at all
+    uint count;   // tiles
+    uint first;   // tile: the sum of the counts before
+};
+
+// The nearest texel of a pixel: a number of 64 bits whose order is that of nearness.
+struct SplatKey {
+    uint low;   // which texel
+    uint high;  // how near, and how well it was seen
+};
+
+LODESTIR_SHARED_END
+LODESTIR_SHARED(Drawn, "drawn.h")
+LODESTIR_SHARED(SplatKey, "drawn.h")
+#endif

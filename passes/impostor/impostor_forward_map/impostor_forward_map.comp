@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// From the key of each pixel to what its texel shows.
+#version 460
+#include "pass.glsl"
+#include "impostor/reduce.glsl"
+#include "splat.glsl"
+
+const Surfel NOTHING = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
+
+/// One material, where counts are of one alone.
+void nameMaterials(inout Surfel f, ImpostorRecord object, ImpostorTexel t) {
+    uint place = commonestPlace(t.counts);
+    if (countOf(t.counts, place) == 15u) {
+        f.materials = object.palette[place];
+    } else {
+        f.materials = t.counts;
+        f.measures |= SURFEL_COUNTS << 24;
+    }
+}
+
+void main() {
+    if (skip()) return;
+    ivec2 p = pixel();
+    SplatKey key = keys(pixelIndex(p));
+    Surfel f = NOTHING;
+    if (key.low != NONE) {
+        World w = world();
+        Impostors made = impostors();
+        DrawnTexel x;
+        texelOfNumber(w, made, key.low, x);
+        uint mesh = w.instances.at[x.instance].mesh;
+        ImpostorTexel t = texelAt(made, mesh, x.level, x.view, x.texel);
+        Splat s;
+        splatOf(w, made, x, t, s);
+        f.instance = x.instance;
+        f.depth = depthIn(s, p);
+        f.normal = packNormal(s.normal);
+        f.measures = packGeometry(t).z;
+        f.uv = packUv(t.uv);
+        f.materials = t.material;
+        f.alpha = t.alpha;
+        f.texel = texelIndex(made, x.level, x.view, x.texel);
+        if (x.level > 0u) nameMaterials(f, made.objects.at[mesh], t);
+    }
+    storeSurfels(pixelIndex(p), f);
+}

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Impostors drawn by scattering: all texels of all views that may be seen, the nearest in each pixel.
+#include <framework/pass/pass.h>
+#include <passes/impostor/impostors.h>
+#include <passes/impostor/surfel.h>
+
+#include "drawn.h"
+
+using namespace lodestir;
+
+enum class LevelRule { footprint, distance, fixed };
+enum class PixelPlace { centre, frame };
+enum class Atomics { wide, pair };
+
+struct ImpostorForwardMap final : Pass {
+    In<World>                 world{this, "world", "the scene: camera, and where its instances stand"};
+    In<Impostors>             impostors{this, "impostors", "of the meshes: instances of those that were baked are drawn"};
+    Out<Buffer<Surfel>>       surfels{this, "surfels", "what each pixel shows of them", Count::perPixel()};
+    Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
+    State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
+    Scratch<Buffer<Drawn>>    drawn{this, "drawn", "what of each instance is drawn", Count::reserved()};
+    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser, and in the end those of the frame", Count::fixed(16)};
+    Scratch<Buffer<uint>>     sums{this, "sums", "tiles of 64 instances each, then of all before them", Count::reserved()};
+    Scratch<Buffer<SplatKey>> keys{this, "keys", "nearest texel of each pixel", Count::perPixel()};
+    Param<LevelRule>          level{this, "level", LevelRule::footprint, {"footprint", "distance", "fixed"},
+                                    "of an instance: whose texels are nearly as wide as a pixel; log2 of distance over radius, whatever the resolution of image and "
+                                    "impostor (RiLoD, section 3.3); the same for all"};
+    Param<float>              bias{this, "bias", 0, {-16, 16}, "added to the level; of fixed: the level"};
+    Param<float>              hysteresis{this, "hysteresis", 0.15f, {0, 1}, "levels by which the wish has to pass a border before the level changes"};
+    Param<float>              viewLimit{this, "viewLimit", -0.3f, {-1, 1}, "least cosine between a view's direction and the camera's for it to be drawn"};
+    Param<float>              tolerance{this, "tolerance", 1.5f, {0, 16},
+                                        "texel sides by which depths may differ and count as one surface, of which the texel that was seen most frontally wins; "
+                                        "0: the nearest wins"};
+    Param<int>                footprint{this, "footprint", 3, {1, 5}, "most pixels a side that a texel is spread over"};
+    Param<bool>               backFaces{this, "backFaces", true, "texels that face away are left out before they can hide others; off: they stay"};
+    Param<float>              cutoff{this, "cutoff", 0.5f, {0, 1}, "least share of a texel that the object has to cover for it to be drawn"};
+    Param<PixelPlace>         film{this, "film", PixelPlace::centre, {"centre", "frame"},
+                                   "which place of a pixel decides what it shows: its centre, or one place for all pixels of a frame (film of visibility)"};
+    Param<Atomics>            atomics{this, "atomics", Atomics::wide, {"wide", "pair"},
+                                      "how the nearest is found: by atomics of 64 bits, or by two of 32, the second among the nearest of the first"};
+    Param<int>                tiles{this, "tiles", 1 << 20, {64, 1 << 26}, "of 8x8 texels, most a frame: where there would be more, all levels are coarser"};
+
+    void execute(Frame& frame) override {
+        const std::uint32_t instances = frame.valueOf(world).instanceCount;
+        const std::uint32_t groups = (instances + 63) / 64;
+        frame.reserve(drawn, instances);
+        frame.reserve(sums, groups);
+        for (const Port* port : std::initializer_list<const Port*>{&totals, &texels}) frame.fill(*port, 0);
+        frame.fill(keys, NONE);
+        frame.dispatch("choose.comp", {instances, 1});
+        frame.dispatch("choose.comp", {instances, 1}, {1});  // the total is known: where it is too much, coarser
+        frame.dispatch("number.comp", {groups, 1}, {0});
+        frame.dispatch("number.comp", {1, 1}, {1});
+        frame.dispatch("number.comp", {groups, 1}, {2});
+        frame.dispatch("scatter.comp", {lanes, 1}, {0});
+        if (atomics == Atomics::pair) frame.dispatch("scatter.comp", {lanes, 1}, {1});
+        frame.dispatch(shader, frame.size());
+    }
+
+private:
+    static constexpr std::uint32_t lanes = 1 << 15;  // they walk through all tiles; how many these are only the device knows
+};
+LODESTIR_PASS(ImpostorForwardMap, "impostor_forward_map.comp",
+              "Draws impostors by scattering the texels of their views into the frame, the nearest in each pixel (RiLoD's forward mapping).")

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// The texels of a frame by number: tile after tile, 64 numbers each. After pass.glsl.
+#include "impostor/views.glsl"
+
+const uint TILE = 8u;         // texels a side
+const uint TILE_NUMBERS = 64u;
+
+/// Tiles a side of a view at a level. The coarsest has one, with 4x4 texels.
+uint tilesAcross(Impostors made, uint level) { return max(1u, levelResolution(made, level) / TILE); }
+
+/// A texel of the frame.
+struct DrawnTexel {
+    uint instance, level, view;
+    uvec2 texel;
+};
+
+/// The i-th view that is kept.
+uint keptView(uint views, uint i) {
+    for (; i > 0u; --i) views &= views - 1u;
+    return uint(findLSB(views));
+}
+
+/// The last instance whose first tile is not after this one: by bisection.
+uint instanceOfTile(uint instances, uint tile) {
+    uint low = 0u, high = instances - 1u;
+    while (low < high) {
+        uint middle = (low + high + 1u) / 2u;
+        if (drawn(middle).first <= tile) low = middle;
+        else high = middle - 1u;
+    }
+    return low;
+}
+
+/// False where the tile has fewer than 64 texels and `number` is of none.
+bool texelOfNumber(World w, Impostors made, uint number, out DrawnTexel found) {
+    uint tile = number / TILE_NUMBERS, inner = number % TILE_NUMBERS;
+    found.instance = instanceOfTile(w.instanceCount, tile);
+    Drawn d = drawn(found.instance);
+    uint across = tilesAcross(made, d.level), inView = (tile - d.first) % (across * across);
+    found.level = d.level;
+    found.view = keptView(d.views, (tile - d.first) / (across * across));
+    found.texel = TILE * uvec2(inView % across, inView / across) + uvec2(inner % TILE, inner / TILE);
+    return all(lessThan(found.texel, uvec2(levelResolution(made, d.level))));
+}

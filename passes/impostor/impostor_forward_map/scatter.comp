@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Texels into pixels; the least key stays. With pairs of atomics the upper words come first (argument 0), then the lower ones of those that have the least.
+#version 460
+#include "pass.glsl"
+#include "splat.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer WideKeys { uint64_t at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer PairKeys { SplatKey at[]; };
+
+const uint QUALITY_STEPS = 255u;
+
+/// How near a texel is in a pixel: its depth, of surfaces that lie closer together than the tolerance the same, before how frontally it was seen. What
+/// a texel is drawn out over is left to those whose centre lies there.
+uint nearness(Splat s, ImpostorTexel t, ivec2 pixel, bool isCenter) {
+    float depth = max(depthIn(s, pixel), 1e-30), step = params.tolerance * s.side;
+    if (step <= 0.0) return floatBitsToUint(depth);
+    float rounded = (floor(depth / step) + (isCenter ? 0.0 : 1.0)) * step;
+    uint quality = uint(clamp(s.frontal * t.alpha, 0.0, 1.0) * float(QUALITY_STEPS) + 0.5);
+    return (floatBitsToUint(rounded) >> 7) << 8 | (QUALITY_STEPS - quality);
+}
+
+void offer(ivec2 pixel, uint number, uint near) {
+    uint i = pixelIndex(pixel);
+    if (params.atomics == atomics_wide) {
+        uint64_t key = packUint2x32(uvec2(number, near));
+        WideKeys keys = WideKeys(passBlock().keys.address);
+        if (key < keys.at[i]) atomicMin(keys.at[i], key);
+        return;
+    }
+    PairKeys keys = PairKeys(passBlock().keys.address);
+    if (argument(0) == 0u) atomicMin(keys.at[i].high, near);
+    else if (keys.at[i].high == near) atomicMin(keys.at[i].low, number);
+}
+
+void draw(World w, Impostors made, uint number) {
+    DrawnTexel x;
+    if (!texelOfNumber(w, made, number, x)) return;
+    ImpostorTexel t = shapeAt(made, w.instances.at[x.instance].mesh, x.level, x.view, x.texel);
+    Splat s;
+    if (!splatOf(w, made, x, t, s)) return;
+    if (argument(0) == 0u && addTexels(0u, 1u) == 0xffffffffu) addTexels(1u, 1u);
+    ivec2 middle = centerPixel(s), reach = min(ivec2(params.footprint / 2), ivec2(ceil(abs(s.a) + abs(s.b))));
+    for (int y = -reach.y; y <= reach.y; ++y) {
+        for (int x = -reach.x; x <= reach.x; ++x) {
+            ivec2 pixel = middle + ivec2(x, y);
+            bool isCenter = x == 0 && y == 0;
+            if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frameSize())))) continue;
+            if (isCenter || all(lessThanEqual(abs(inSplat(s, pixel)), vec2(1.0)))) offer(pixel, number, nearness(s, t, pixel, isCenter));
+        }
+    }
+}
+
+void main() {
+    if (skip()) return;
+    World w = world();
+    Impostors made = impostors();
+    uint count = totals(0u) * TILE_NUMBERS;
+    for (uint number = uint(pixel().x); number < count; number += push.extent.x) draw(w, made, number);
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// What a pixel shows, whichever of the inputs says so: a surface, the materials that it is of and their shares.
+#include "bsdf/material.glsl"
+#include "impostor/texel_surface.glsl"
+#include "impostor/reduce.glsl"
+#include "light/emission.glsl"
+#include "world/camera.glsl"
+
+/// A material's BSDF at the pixel, and the chances of its lobes.
+struct Lobes {
+    Bsdf bsdf;
+    LobeChances chance;
+};
+
+/// Where a pixel's centre sees a depth. The place inside the pixel that a surface was found at may be another; what that would change is below what its
+/// normal is known to.
+vec3 seenPosition(World w, ivec2 pixel, float depth, out vec3 view) {
+    Ray ray = cameraRay(w, filmOf(pixel, vec2(0.5), frameSize()), vec2(0.5));
+    view = -ray.direction;
+    return ray.origin + depth / dot(ray.direction, w.camera.forward) * ray.direction;
+}
+
+#if HAS_surfels
+struct Shaded {
+    Surface surface;
+    float depth, alpha;
+    uint materials;   // how many; 0: nothing is shown
+    uint counts;      // of the palette; 0: one material, the surface's
+    uint mesh;
+    float size;       // of the mean normal
+};
+
+Shaded shadedAt(World w, ivec2 pixel) {
+    Shaded shown;
+    shown.alpha = 0.0;
+    shown.depth = 0.0;
+    shown.materials = 0u;
+    Surfel f = surfels(pixelIndex(pixel));
+    if (f.instance == NONE) return shown;
+    vec3 view, position = seenPosition(w, pixel, f.depth, view);
+    shown.depth = f.depth;
+    shown.alpha = f.alpha;
+    shown.mesh = w.instances.at[f.instance].mesh;
+    shown.size = float(f.measures & 0xffffu) / 65535.0;
+    uint flags = f.measures >> 24, level = levelOfTexel(impostors(), f.texel);
+    shown.counts = (flags & SURFEL_COUNTS) != 0u ? f.materials : 0u;
+    shown.materials = 1u;
+    uint material = f.materials;
+    if (shown.counts != 0u) {
+        shown.materials = 0u;
+        for (uint i = 0u; i < PALETTE; ++i) shown.materials += countOf(shown.counts, i) != 0u ? 1u : 0u;
+        material = impostors().objects.at[shown.mesh].palette[commonestPlace(shown.counts)];
+    }
+    float side = texelSide(impostors(), impostors().objects.at[shown.mesh].radius, level) * placementScale(placementOf(w, f.instance));
+    shown.surface = texelSurface(f.instance, material, position, unpackNormal(f.normal), view, unpackUv(f.uv), unpackDensity((f.measures >> 16) & 0xffu), side);
+    return shown;
+}
+
+/// Place in the palette of the i-th material that there is some of.
+uint placeOf(Shaded shown, uint i) {
+    for (uint place = 0u; place < PALETTE; ++place)
+        if (countOf(shown.counts, place) != 0u && i-- == 0u) return place;
+    return 0u;
+}
+
+Surface surfaceOf(Shaded shown, uint i) {
+    Surface s = shown.surface;
+    if (shown.counts != 0u && shown.materials > 1u) s.material = impostors().objects.at[shown.mesh].palette[placeOf(shown, i)];
+    return s;
+}
+
+float shareOf(Shaded shown, uint i) { return shown.materials > 1u ? float(countOf(shown.counts, placeOf(shown, i))) / 15.0 : 1.0; }
+
+Lobes lobesOf(World w, Shaded shown, uint i) {
+    Lobes lobes;
+    lobes.bsdf = bsdfAt(w, surfaceOf(shown, i));
+    if (params.spread) {
+        lobes.bsdf.alpha = spreadWidth(lobes.bsdf.alpha, shown.size);
+        lobes.bsdf.along = spreadWidth(lobes.bsdf.along, shown.size);
+        lobes.bsdf.coatAlpha = spreadWidth(lobes.bsdf.coatAlpha, shown.size);
+    }
+    lobes.chance = lobeProbabilities(lobes.bsdf, shown.surface.view);
+    return lobes;
+}
+
+vec3 emissionOf(World w, Shaded shown, uint i) { return texelEmission(w, surfaceOf(shown, i)); }
+#else
+struct Shaded {
+    Surface surface;
+    float depth, alpha;
+    uint materials;
+#if HAS_baked
+    BakedSurface baked;
+#endif
+};
+
+float shareOf(Shaded shown, uint i) { return 1.0; }
+#endif
+
+#if HAS_baked
+Shaded shadedAt(World w, ivec2 pixel) {
+    Shaded shown;
+    shown.baked = baked(pixelIndex(pixel));
+    bool isShown = shown.baked.instance != NONE;
+    shown.materials = isShown ? 1u : 0u;
+    shown.alpha = isShown ? shown.baked.alpha : 0.0;
+    shown.depth = isShown ? shown.baked.depth : 0.0;
+    if (!isShown) return shown;
+    vec3 view, position = seenPosition(w, pixel, shown.depth, view);
+    float side = shown.depth * w.camera.pixelAngle;
+    shown.surface = texelSurface(shown.baked.instance, NONE, position, unpackNormal(shown.baked.normal), view, vec2(0.0), DENSITY_NONE, side);
+    return shown;
+}
+
+Lobes lobesOf(World w, Shaded shown, uint i) {
+    vec4 color = unpackColor(shown.baked.color), more = unpackColor(shown.baked.more);
+    Lobes lobes;
+    lobes.bsdf = plainBsdf(shown.surface.shadingNormal, shown.surface.normal, color.rgb, more.a, 0.0, square(color.a), 1.5, 1.0, false);
+    lobes.chance = lobeProbabilities(lobes.bsdf, shown.surface.view);
+    return lobes;
+}
+
+vec3 emissionOf(World w, Shaded shown, uint i) { return unpackColor(shown.baked.more).rgb; }
+#endif
+
+#if HAS_hits
+Shaded shadedAt(World w, ivec2 pixel) {
+    Shaded shown;
+    PrimaryHit hit = hits(pixelIndex(pixel));
+    bool isShown = hit.primitive != NONE;
+    shown.materials = isShown ? 1u : 0u;
+    shown.alpha = isShown ? 1.0 : 0.0;
+    shown.depth = 0.0;
+    if (!isShown) return shown;
+    shown.surface = surfaceAt(w, hitOf(hit), cameraRay(w, filmOf(pixel, hit.film, frameSize()), hit.lens).direction);
+    shown.depth = dot(shown.surface.position - w.camera.position, w.camera.forward);
+    return shown;
+}
+
+Lobes lobesOf(World w, Shaded shown, uint i) {
+    Lobes lobes;
+    lobes.bsdf = bsdfAt(w, shown.surface);
+    lobes.chance = lobeProbabilities(lobes.bsdf, shown.surface.view);
+    return lobes;
+}
+
+vec3 emissionOf(World w, Shaded shown, uint i) { return emittedRadiance(w, shown.surface); }
+#endif
+
+/// Which material's turn it is at `place` in [0,1) of all of them.
+uint materialAt(Shaded shown, float place) {
+    uint i = 0u;
+    for (float before = shareOf(shown, 0u); before <= place && i + 1u < shown.materials;) before += shareOf(shown, ++i);
+    return i;
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What the pixels of a frame show of impostors before light falls on it: what passes that draw impostors make, hole_fill repairs, and reshade shades.
+#ifndef LODESTIR_SURFEL_H
+#define LODESTIR_SURFEL_H
+#include "base/shared.h"
+
+LODESTIR_SHARED_BEGIN
+
+const uint SURFEL_COUNTS = 8u;  // among the flags of Surfel.measures, beside TEXEL_*: its materials are counts
+
+// A texel of an impostor where it landed: materials are named, not evaluated, so that they may change at any time.
+struct Surfel {
+    uint instance;   // NONE: the pixel shows none
+    float depth;     // along the camera's forward direction, scene units
+    uint normal;     // unit, world space, octahedral (packNormal): the mean's direction
+    uint measures;   // length of the mean normal, density and flags, as in the third word of a texel's geometry (impostor/texel.glsl)
+    uint uv;         // of set 0 (packUv)
+    uint materials;  // index in World.materials, or with SURFEL_COUNTS among the flags the palette's counts
+    float alpha;     // share of the texel that the object covers
+    uint texel;      // index in the arrays of its mesh's ImpostorRecord
+};
+
+// What an atlas of colours knows of a pixel: materials are evaluated, as baked.
+struct BakedSurface {
+    uint instance;  // NONE: the pixel shows none
+    float depth;    // along the camera's forward direction, scene units
+    uint normal;    // unit, world space, octahedral (packNormal)
+    float alpha;    // share of the pixel that the object covers
+    uvec2 color;    // base colour and perceptual roughness (packColor)
+    uvec2 more;     // emission and metallic (packColor)
+};
+
+LODESTIR_SHARED_END
+LODESTIR_SHARED(Surfel, "impostor/surfel.h")
+LODESTIR_SHARED(BakedSurface, "impostor/surfel.h")
+#endif
