@@ -18,12 +18,24 @@ struct ImpostorRecord {
     uint64_t uvs;        // uint[]
     uint64_t materials;  // uint[]: index in World.materials at the finest level, counts of the palette above
     uint64_t places;     // uint[]: place in the palette of each material of the scene
+    uint64_t tiles;      // TileRecord[], of each tile of 8x8 texels (element tileIndex()): what lets it be passed over
     vec3 center;         // of the sphere that the views stand around, object space
     float radius;        // 0: the mesh was not baked, and the addresses are nothing
+    uvec2 pad;
     uint palette[PALETTE];  // indices in World.materials, NONE: free
 };
 
 LODESTIR_ARRAY(ImpostorArray, ImpostorRecord)
+
+// A cone around the normals of a tile, and its range of depths.
+struct TileRecord {
+    uint axis;       // unit, in the view's axes (packNormal)
+    float cosine;    // of the angle between the axis and the normal farthest off; -1: they tell nothing about what is seen
+    float nearest;   // depths; of a tile that shows nothing the nearest is beyond the farthest
+    float farthest;
+};
+
+LODESTIR_ARRAY(TileArray, TileRecord)
 
 struct Impostors {
     LODESTIR_ARRAY_OF(ImpostorArray) objects;  // of each mesh of the scene

@@ -16,6 +16,7 @@ const uint TEXEL_BACK = 2u;       // the view saw the back of a triangle; its no
 const uint TEXEL_BUMPED = 4u;     // the normal lies more than 18 degrees off the triangle's: ask depths which side is seen
 
 const float LEAST_ALPHA = 1.0 / 255.0;
+const float NORMAL_MEANS = 0.3;  // length of a mean normal from which on it tells which side is seen
 
 struct ImpostorTexel {
     vec3 normal;     // mean of the unit shading normals, in the view's axes: the more they differ the shorter it is

@@ -63,3 +63,16 @@ uint levelOfTexel(Impostors impostors, uint index) {
     while (level + 1u < impostors.levels && texelIndex(impostors, level + 1u, 0u, uvec2(0u)) <= index) ++level;
     return level;
 }
+
+const uint TILE = 8u;  // texels a side
+
+/// Tiles a side of a view at a level: at least one, though the coarsest level has but 4x4 texels.
+uint tilesAcross(Impostors impostors, uint level) { return max(1u, levelResolution(impostors, level) / TILE); }
+uint tilesInView(Impostors impostors, uint level) { return tilesAcross(impostors, level) * tilesAcross(impostors, level); }
+
+/// Place of a tile in ImpostorRecord.tiles: level after level, in each view after view, in each row after row. All levels but the coarsest have whole tiles.
+uint tileIndex(Impostors impostors, uint level, uint view, uvec2 tile) {
+    uint n = impostors.resolution / TILE, across = tilesAcross(impostors, level);
+    uint before = level + 1u < impostors.levels ? (n * n - across * across) / 3u * 4u : (n * n - 1u) / 3u * 4u + 1u;
+    return before * impostors.views + (view * across + tile.y) * across + tile.x;
+}

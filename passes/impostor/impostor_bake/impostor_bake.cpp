@@ -59,6 +59,8 @@ struct ImpostorBake final : Pass {
             frame.dispatch(shader, {made.views * made.resolution, made.resolution}, {m, low, high});
             for (std::uint32_t level = 1; level < made.levels; ++level)
                 frame.dispatch("pyramid.comp", {made.views * (made.resolution >> level), made.resolution >> level}, {m, low, high, level});
+            for (std::uint32_t level = 0; level < made.levels; ++level)
+                frame.dispatch("tiles.comp", {made.views * tilesAcross(made, level), tilesAcross(made, level)}, {m, low, high, level});
             frame.dispatch("coverage.comp", {std::uint32_t(int(points)), 1}, {m, low, high});
         }
     }
@@ -69,6 +71,14 @@ private:
     static std::uint64_t texelCount(const Impostors& made) {
         std::uint64_t count = 0;
         for (std::uint32_t level = 0; level < made.levels; ++level) count += std::uint64_t(made.resolution >> level) * (made.resolution >> level);
+        return count * made.views;
+    }
+
+    static std::uint32_t tilesAcross(const Impostors& made, std::uint32_t level) { return std::max(1u, (made.resolution >> level) / 8); }
+
+    static std::uint64_t tileCount(const Impostors& made) {
+        std::uint64_t count = 0;
+        for (std::uint32_t level = 0; level < made.levels; ++level) count += std::uint64_t(tilesAcross(made, level)) * tilesAcross(made, level);
         return count * made.views;
     }
 
@@ -111,12 +121,15 @@ private:
         const std::uint64_t texels = texelCount(made);
         memories.push_back(frame.upload(std::vector<std::byte>(texels * bytesPerTexel), "impostor texels"));
         const std::uint64_t geometry = memories.back().address, uvs = geometry + texels * sizeof(glm::uvec4);
+        memories.push_back(frame.upload(std::vector<TileRecord>(tileCount(made)), "impostor tiles"));
+        const std::uint64_t tiles = memories.back().address;
         memories.push_back(frame.upload(palette.places, "impostor palette"));
         const Sphere sphere = sphereAround(frame.sceneRecords(), m);
         ImpostorRecord record{.geometry = geometry,
                               .uvs = uvs,
                               .materials = uvs + texels * sizeof(std::uint32_t),
                               .places = memories.back().address,
+                              .tiles = tiles,
                               .center = sphere.center,
                               .radius = sphere.radius};
         std::ranges::copy(palette.materials, record.palette);

@@ -61,12 +61,12 @@ void main() {
     Totals sums = Totals(passBlock().totals.address);
     if (argument(0) == 0u) {
         for (uint coarser = 0u; coarser < 8u; ++coarser)
-            atomicAdd(sums.at[coarser], uint64_t(bitCount(views) * square(tilesAcross(made, min(level + coarser, made.levels - 1u)))));
+            atomicAdd(sums.at[coarser], uint64_t(bitCount(views) * tilesInView(made, min(level + coarser, made.levels - 1u))));
         return;
     }
     uint coarser = 0u;
     while (coarser < 7u && sums.at[coarser] > uint64_t(params.tiles)) ++coarser;
     if (isKnown && isDrawn) storeLevels(instance, level + 1u);
     level = min(level + coarser, made.levels - 1u);
-    storeDrawn(instance, Drawn(level, views, bitCount(views) * square(tilesAcross(made, level)), 0u));
+    storeDrawn(instance, Drawn(level, views, bitCount(views) * tilesInView(made, level), 0u));
 }

@@ -19,8 +19,9 @@ struct ImpostorForwardMap final : Pass {
     Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
     State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
     Scratch<Buffer<Drawn>>    drawn{this, "drawn", "what of each instance is drawn", Count::reserved()};
-    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser, and in the end those of the frame", Count::fixed(16)};
+    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser; in the end those of the frame and those that show", Count::fixed(16)};
     Scratch<Buffer<uint>>     sums{this, "sums", "tiles of 64 instances each, then of all before them", Count::reserved()};
+    Scratch<Buffer<uint>>     shown{this, "shown", "numbers of the tiles that may be seen", Count::reserved()};
     Scratch<Buffer<SplatKey>> keys{this, "keys", "nearest texel of each pixel", Count::perPixel()};
     Param<LevelRule>          level{this, "level", LevelRule::footprint, {"footprint", "distance", "fixed"},
                                     "of an instance: whose texels are nearly as wide as a pixel; log2 of distance over radius, whatever the resolution of image and "
@@ -45,6 +46,7 @@ struct ImpostorForwardMap final : Pass {
         const std::uint32_t groups = (instances + 63) / 64;
         frame.reserve(drawn, instances);
         frame.reserve(sums, groups);
+        frame.reserve(shown, std::uint32_t(int(tiles)));
         for (const Port* port : std::initializer_list<const Port*>{&totals, &texels}) frame.fill(*port, 0);
         frame.fill(keys, NONE);
         frame.dispatch("choose.comp", {instances, 1});
@@ -52,6 +54,7 @@ struct ImpostorForwardMap final : Pass {
         frame.dispatch("number.comp", {groups, 1}, {0});
         frame.dispatch("number.comp", {1, 1}, {1});
         frame.dispatch("number.comp", {groups, 1}, {2});
+        frame.dispatch("tiles.comp", {lanes, 1});
         frame.dispatch("scatter.comp", {lanes, 1}, {0});
         if (atomics == Atomics::pair) frame.dispatch("scatter.comp", {lanes, 1}, {1});
         frame.dispatch(shader, frame.size());

@@ -18,6 +18,7 @@ void main() {
             sum += own;
         }
         storeTotals(0u, sum);
+        storeTotals(1u, 0u);
     } else {
         sum = sums(group);
         for (uint i = first; i < end; ++i) {

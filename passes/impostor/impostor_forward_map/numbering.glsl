@@ -2,13 +2,9 @@
 // The texels of a frame by number: tile after tile, 64 numbers each. After pass.glsl.
 #include "impostor/views.glsl"
 
-const uint TILE = 8u;         // texels a side
 const uint TILE_NUMBERS = 64u;
 
-/// Tiles a side of a view at a level. The coarsest has one, with 4x4 texels.
-uint tilesAcross(Impostors made, uint level) { return max(1u, levelResolution(made, level) / TILE); }
-
-/// A texel of the frame.
+/// A texel of the frame; of a tile its first.
 struct DrawnTexel {
     uint instance, level, view;
     uvec2 texel;
@@ -31,14 +27,22 @@ uint instanceOfTile(uint instances, uint tile) {
     return low;
 }
 
-/// False where the tile has fewer than 64 texels and `number` is of none.
-bool texelOfNumber(World w, Impostors made, uint number, out DrawnTexel found) {
-    uint tile = number / TILE_NUMBERS, inner = number % TILE_NUMBERS;
+/// A tile of the frame by number.
+DrawnTexel tileOfNumber(World w, Impostors made, uint tile) {
+    DrawnTexel found;
     found.instance = instanceOfTile(w.instanceCount, tile);
     Drawn d = drawn(found.instance);
-    uint across = tilesAcross(made, d.level), inView = (tile - d.first) % (across * across);
+    uint across = tilesAcross(made, d.level), perView = tilesInView(made, d.level), inView = (tile - d.first) % perView;
     found.level = d.level;
-    found.view = keptView(d.views, (tile - d.first) / (across * across));
-    found.texel = TILE * uvec2(inView % across, inView / across) + uvec2(inner % TILE, inner / TILE);
-    return all(lessThan(found.texel, uvec2(levelResolution(made, d.level))));
+    found.view = keptView(d.views, (tile - d.first) / perView);
+    found.texel = TILE * uvec2(inView % across, inView / across);
+    return found;
+}
+
+/// False where the tile has fewer than 64 texels and `number` is of none.
+bool texelOfNumber(World w, Impostors made, uint number, out DrawnTexel found) {
+    uint inner = number % TILE_NUMBERS;
+    found = tileOfNumber(w, made, number / TILE_NUMBERS);
+    found.texel += uvec2(inner % TILE, inner / TILE);
+    return all(lessThan(found.texel, uvec2(levelResolution(made, found.level))));
 }

@@ -54,6 +54,6 @@ void main() {
     if (skip()) return;
     World w = world();
     Impostors made = impostors();
-    uint count = totals(0u) * TILE_NUMBERS;
-    for (uint number = uint(pixel().x); number < count; number += push.extent.x) draw(w, made, number);
+    uint count = totals(1u) * TILE_NUMBERS;
+    for (uint i = uint(pixel().x); i < count; i += push.extent.x) draw(w, made, shown(i / TILE_NUMBERS) * TILE_NUMBERS + i % TILE_NUMBERS);
 }

@@ -6,7 +6,6 @@
 #include "world/camera.glsl"
 
 const float BACK_SLACK = 0.05;      // cosine by which a mean normal may lean away and still be of what is seen
-const float MEANINGLESS = 0.3;      // length of a mean normal below which it tells no side
 const float STEEPEST = 0.2;         // cosine to the view beyond which texels are drawn out no further
 
 struct Splat {
@@ -57,7 +56,7 @@ bool splatOf(World w, Impostors made, DrawnTexel x, ImpostorTexel t, out Splat s
     vec3 geometric = safeNormalize(placeNormal(placement, outOfView(v, flatNormal)) * mirror, view);
     bool turns = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(geometric, view) < 0.0;
     if (turns) s.normal = -s.normal;
-    if (params.backFaces && !turns && length(t.normal) >= MEANINGLESS && dot(geometric, view) < -BACK_SLACK) return false;
+    if (params.backFaces && !turns && length(t.normal) >= NORMAL_MEANS && dot(geometric, view) < -BACK_SLACK) return false;
 
     float side = texelSide(made, object.radius, x.level), steep = max(flatNormal.z, STEEPEST);
     vec3 rise = 0.5 * side * v.d / steep;

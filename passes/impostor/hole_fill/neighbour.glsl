@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// A pixel's surfel with where it is, and when two of them are of one surface. After pass.glsl.
+#include "base/pack.glsl"
+#include "impostor/surfel.h"
+#include "world/camera.glsl"
+
+/// Widths of a pixel that surfaces of one kind may lie off each other's planes.
+const float SAME_SURFACE = 2.0;
+
+struct Neighbour {
+    bool isThere;
+    Surfel f;
+    vec3 position, normal;
+    float width;  // of a pixel at its depth
+};
+
+Ray pixelRay(World w, ivec2 p) { return cameraRay(w, filmOf(p, vec2(0.5), frameSize()), vec2(0.5)); }
+
+Neighbour neighbourOf(World w, ivec2 p, Surfel f) {
+    Neighbour n;
+    n.f = f;
+    n.isThere = f.instance != NONE;
+    Ray ray = pixelRay(w, p);
+    n.position = ray.origin + f.depth / dot(ray.direction, w.camera.forward) * ray.direction;
+    n.normal = unpackNormal(f.normal);
+    n.width = w.camera.orthographic != 0u ? w.camera.pixelAngle : f.depth * w.camera.pixelAngle;
+    return n;
+}
+
+/// Distance of a point from the plane of a surfel, in pixels' widths.
+float offPlane(Neighbour n, vec3 point) { return abs(dot(n.normal, point - n.position)) / n.width; }
+
+/// Does one lie on the other's plane? Of what bends at least one does.
+bool isSame(Neighbour a, Neighbour b) {
+    return a.isThere && b.isThere && a.f.instance == b.f.instance && min(offPlane(a, b.position), offPlane(b, a.position)) < SAME_SURFACE;
+}
+
+/// Depth at which a pixel's ray meets the plane of a surfel, no farther from its own than `most` pixels' widths.
+float planeDepth(World w, Neighbour n, Ray ray, float most) {
+    float along = dot(n.normal, ray.direction), forward = dot(ray.direction, w.camera.forward);
+    float depth = abs(along) > 1e-3 ? dot(n.normal, n.position - ray.origin) / along * forward : n.f.depth;
+    return clamp(depth, n.f.depth - most * n.width, n.f.depth + most * n.width);
+}
