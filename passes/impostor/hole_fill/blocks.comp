@@ -12,23 +12,21 @@ const float LEAST_WEIGHT = 0.25;
 const uint LEAST_TAPS = 3u;
 const float LEAST_ALPHA_MEAN = 0.5;  // of what it is filled with: less is a lattice that one sees through
 
-Neighbour at(World w, ivec2 p) {
-    bool isInside = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, ivec2(frameSize())));
-    Surfel none = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
-    Surfel f = none;
-    if (isInside) f = surfels(pixelIndex(p));
-    return neighbourOf(w, p, f);
+Surfel surfelAt(ivec2 p) {
+    Surfel f = NOTHING;
+    if (inside(p)) f = surfels(pixelIndex(p));
+    return f;
 }
+Neighbour at(World w, ivec2 p) { return neighbourOf(w, p, surfelAt(p)); }
 
-/// The first surfel on the way that isn't behind `depth`; none within reach: not there.
-Neighbour rim(World w, ivec2 p, ivec2 way, Neighbour own) {
+/// Pixels to the first surfel on the way that is before what the pixel itself shows; 0: there is none within reach.
+int rim(World w, ivec2 p, ivec2 way, Neighbour own) {
     for (int i = 1; i <= REACH; ++i) {
-        Neighbour n = at(w, p + i * way);
-        bool isNearer = n.isThere && (!own.isThere || own.f.depth - n.f.depth > SAME_SURFACE * n.width && !isSame(own, n));
-        if (isNearer) return n;
+        Surfel f = surfelAt(p + i * way);
+        if (f.instance == NONE || (own.isThere && own.f.depth - f.depth <= SAME_SURFACE * own.width)) continue;
+        if (!own.isThere || !isSame(own, neighbourOf(w, p + i * way, f))) return i;
     }
-    own.isThere = false;
-    return own;
+    return 0;
 }
 
 /// Is the pixel inside a surface that doesn't show in it? `reference`: a rim of it, the nearest to the camera.
@@ -36,8 +34,10 @@ bool isHole(World w, ivec2 p, Neighbour own, out Neighbour reference) {
     const ivec2 ways[4] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1));
     uint enclosed = 0u;
     reference.isThere = false;
-    for (int i = 0; i < 4; ++i) {
-        Neighbour a = rim(w, p, ways[i], own), b = rim(w, p, -ways[i], own);
+    for (uint i = 0u; i < 4u && enclosed + 4u - i >= ENCLOSED; ++i) {
+        int to = rim(w, p, ways[i], own), from = to == 0 ? 0 : rim(w, p, -ways[i], own);
+        if (from == 0) continue;
+        Neighbour a = at(w, p + to * ways[i]), b = at(w, p - from * ways[i]);
         if (!isSame(a, b)) continue;
         ++enclosed;
         if (!reference.isThere || a.f.depth < reference.f.depth) reference = a;

@@ -9,10 +9,19 @@
 const ivec2 AROUND[8] = ivec2[](ivec2(1, 0), ivec2(1, 1), ivec2(0, 1), ivec2(-1, 1), ivec2(-1, 0), ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1));
 
 Neighbour at(World w, ivec2 p) {
-    bool isInside = all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, ivec2(frameSize())));
-    Surfel f = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
-    if (isInside) f = blocks(pixelIndex(p));
+    Surfel f = NOTHING;
+    if (inside(p)) f = blocks(pixelIndex(p));
     return neighbourOf(w, p, f);
+}
+
+/// Is anything nearer beside the pixel than what it shows? Few pixels pass.
+bool mayChange(World w, ivec2 p, Surfel own) {
+    for (int i = 0; i < 8; ++i) {
+        if (!inside(p + AROUND[i])) continue;
+        Surfel f = blocks(pixelIndex(p + AROUND[i]));
+        if (f.instance != NONE && (own.instance == NONE || own.depth - f.depth > SAME_SURFACE * widthAt(w, own.depth))) return true;
+    }
+    return false;
 }
 
 /// Bit i: the neighbour AROUND[i] is of the same surface.
@@ -47,20 +56,14 @@ Surfel between(Neighbour a, Neighbour b, float share) {
 }
 
 bool continues(World w, ivec2 p, Neighbour own, out Surfel made) {
-    for (int i = 0; i < 4; ++i) {
-        for (int split = 2; split <= 4; ++split) {  // one pixel apart on both sides, or one and two
-            ivec2 to = AROUND[i] * (split / 2), from = -AROUND[i] * ((split + 1) / 2);
-            if (split == 4) {
-                to = AROUND[i] * 2;
-                from = -AROUND[i];
-            }
-            Neighbour a = at(w, p + to), b = at(w, p + from);
-            if (!isSame(a, b) || dot(a.normal, b.normal) < 0.5 || (own.isThere && own.f.depth < min(a.f.depth, b.f.depth))) continue;
-            if (!isThin(w, p + to, a) || !isThin(w, p + from, b)) continue;
-            float reach = length(vec2(to)), other = length(vec2(from));
-            made = between(a, b, reach / (reach + other));
-            return true;
-        }
+    const ivec2 gaps[3] = ivec2[](ivec2(1, 1), ivec2(1, 2), ivec2(2, 1));  // pixels to both ends
+    for (int i = 0; i < 12; ++i) {
+        ivec2 way = AROUND[i / 3], gap = gaps[i % 3], to = p + gap.x * way, from = p - gap.y * way;
+        Neighbour a = at(w, to), b = at(w, from);
+        if (!isSame(a, b) || dot(a.normal, b.normal) < 0.5 || (own.isThere && own.f.depth < min(a.f.depth, b.f.depth))) continue;
+        if (!isThin(w, to, a) || !isThin(w, from, b)) continue;
+        made = between(a, b, float(gap.x) / float(gap.x + gap.y));
+        return true;
     }
     return false;
 }
@@ -95,8 +98,8 @@ void main() {
     if (skip()) return;
     ivec2 p = pixel();
     Surfel made = blocks(pixelIndex(p)), other;
-    if (params.stage2) {
-        World w = world();
+    World w = world();
+    if (params.stage2 && mayChange(w, p, made)) {
         Neighbour own = neighbourOf(w, p, made);
         if (closes(w, p, own, other) || continues(w, p, own, other)) {
             made = other;

@@ -16,14 +16,19 @@ struct Neighbour {
 
 Ray pixelRay(World w, ivec2 p) { return cameraRay(w, filmOf(p, vec2(0.5), frameSize()), vec2(0.5)); }
 
+const Surfel NOTHING = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
+
+float widthAt(World w, float depth) { return w.camera.orthographic != 0u ? w.camera.pixelAngle : depth * w.camera.pixelAngle; }
+
 Neighbour neighbourOf(World w, ivec2 p, Surfel f) {
     Neighbour n;
     n.f = f;
     n.isThere = f.instance != NONE;
+    if (!n.isThere) return n;
     Ray ray = pixelRay(w, p);
     n.position = ray.origin + f.depth / dot(ray.direction, w.camera.forward) * ray.direction;
     n.normal = unpackNormal(f.normal);
-    n.width = w.camera.orthographic != 0u ? w.camera.pixelAngle : f.depth * w.camera.pixelAngle;
+    n.width = widthAt(w, f.depth);
     return n;
 }
 

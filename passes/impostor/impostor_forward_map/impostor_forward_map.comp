@@ -38,7 +38,7 @@ void main() {
         f.measures = packGeometry(t).z;
         f.uv = packUv(t.uv);
         f.materials = t.material;
-        f.alpha = t.alpha;
+        f.alpha = params.blend ? t.alpha : 1.0;
         f.texel = texelIndex(made, x.level, x.view, x.texel);
         if (x.level > 0u) nameMaterials(f, made.objects.at[mesh], t);
     }

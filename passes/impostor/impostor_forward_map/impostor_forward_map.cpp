@@ -34,7 +34,8 @@ struct ImpostorForwardMap final : Pass {
                                         "0: the nearest wins"};
     Param<int>                footprint{this, "footprint", 3, {1, 5}, "most pixels a side that a texel is spread over"};
     Param<bool>               backFaces{this, "backFaces", true, "texels that face away are left out before they can hide others; off: they stay"};
-    Param<float>              cutoff{this, "cutoff", 0.5f, {0, 1}, "least share of a texel that the object has to cover for it to be drawn"};
+    Param<float>              cutoff{this, "cutoff", 0.5f, {0.01f, 1}, "least share of a texel that the object has to cover for it to be drawn, if it isn't blended"};
+    Param<bool>               blend{this, "blend", false, "pixels keep the share of their texel that the object covers; off: all of it, or nothing"};
     Param<PixelPlace>         film{this, "film", PixelPlace::centre, {"centre", "frame"},
                                    "which place of a pixel decides what it shows: its centre, or one place for all pixels of a frame (film of visibility)"};
     Param<Atomics>            atomics{this, "atomics", Atomics::wide, {"wide", "pair"},

@@ -39,13 +39,13 @@ void draw(World w, Impostors made, uint number) {
     Splat s;
     if (!splatOf(w, made, x, t, s)) return;
     if (argument(0) == 0u && addTexels(0u, 1u) == 0xffffffffu) addTexels(1u, 1u);
-    ivec2 middle = centerPixel(s), reach = min(ivec2(params.footprint / 2), ivec2(ceil(abs(s.a) + abs(s.b))));
+    ivec2 middle = centerPixel(s), reach = min(ivec2(params.footprint / 2), ivec2(ceil(OVERLAP * (abs(s.a) + abs(s.b)))));
     for (int y = -reach.y; y <= reach.y; ++y) {
         for (int x = -reach.x; x <= reach.x; ++x) {
             ivec2 pixel = middle + ivec2(x, y);
             bool isCenter = x == 0 && y == 0;
             if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frameSize())))) continue;
-            if (isCenter || all(lessThanEqual(abs(inSplat(s, pixel)), vec2(1.0)))) offer(pixel, number, nearness(s, t, pixel, isCenter));
+            if (covers(s, pixel)) offer(pixel, number, nearness(s, t, pixel, isCenter));
         }
     }
 }

@@ -39,19 +39,27 @@ vec3 depthNormal(Impostors made, uint mesh, DrawnTexel x, float depth) {
     return normalize(vec3(-heightStep(made, mesh, x, ivec2(1, 0), depth), -heightStep(made, mesh, x, ivec2(0, 1), depth), side));
 }
 
+/// Depth of the texel's plane at its middle, in the view. What a texel keeps is the nearest of the samples that it was made of: 2^(level + 1) a side, so that
+/// the outermost lie a quarter of a finest texel from its border.
+float middleDepth(Impostors made, uint level, float nearest, vec3 flatNormal) {
+    float outermost = 0.5 - 0.25 / float(1u << level);
+    return nearest + outermost * (abs(flatNormal.x) + abs(flatNormal.y)) / max(flatNormal.z, STEEPEST) * 0.5 * texelSide(made, 1.0, level);
+}
+
 /// False where nothing of it is seen.
 bool splatOf(World w, Impostors made, DrawnTexel x, ImpostorTexel t, out Splat s) {
-    if (t.alpha < max(params.cutoff, LEAST_ALPHA)) return false;
+    if (t.alpha < (params.blend ? LEAST_ALPHA : params.cutoff)) return false;
     uint mesh = w.instances.at[x.instance].mesh;
     ImpostorRecord object = made.objects.at[mesh];
     ImpostorView v = impostorView(made.views, x.view);
     Placement placement = placementOf(w, x.instance);
     float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0, n = float(levelResolution(made, x.level));
-    vec3 position = placePoint(placement, windowPoint(made, object.center, object.radius, v, (vec2(x.texel) + 0.5) / n, t.depth));
-    vec3 view = w.camera.orthographic != 0u ? -w.camera.forward : normalize(w.camera.position - position);
-
     vec3 seen = safeNormalize(t.normal, vec3(0.0, 0.0, 1.0)), flatNormal = seen;
     if ((t.flags & TEXEL_BUMPED) != 0u) flatNormal = depthNormal(made, mesh, x, t.depth);
+    float depth = middleDepth(made, x.level, t.depth, flatNormal);
+    vec3 position = placePoint(placement, windowPoint(made, object.center, object.radius, v, (vec2(x.texel) + 0.5) / n, depth));
+    vec3 view = w.camera.orthographic != 0u ? -w.camera.forward : normalize(w.camera.position - position);
+
     s.normal = safeNormalize(placeNormal(placement, outOfView(v, seen)) * mirror, view);
     vec3 geometric = safeNormalize(placeNormal(placement, outOfView(v, flatNormal)) * mirror, view);
     bool turns = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(geometric, view) < 0.0;
@@ -79,6 +87,11 @@ vec2 inSplat(Splat s, ivec2 pixel) {
     float area = s.a.x * s.b.y - s.a.y * s.b.x;
     return abs(area) > 1e-6 ? vec2(d.x * s.b.y - d.y * s.b.x, s.a.x * d.y - s.a.y * d.x) / area : vec2(1e3);
 }
+
+/// How much larger than it is a texel is drawn, so that surfaces that bend have no cracks.
+const float OVERLAP = 1.15;
+
+bool covers(Splat s, ivec2 pixel) { return all(lessThanEqual(abs(inSplat(s, pixel)), vec2(OVERLAP))); }
 
 ivec2 centerPixel(Splat s) { return ivec2(floor(s.center + 0.5)); }
 
