@@ -2,6 +2,7 @@
 #include "backdrop.h"
 
 #include "shapes.h"
+#include "still_life.h"
 
 namespace lodestir::generate {
 
@@ -17,6 +18,13 @@ void addWall(Glb& glb, const Material& paint, const glm::vec3& corner, const glm
     Model wall{"wall", {}};
     wall.add(glb.addMaterial(paint), rectangle(corner, right, down));
     glb.addNode(wall);
+}
+
+void addLamp(Glb& glb, const glm::vec3& centre, float radius, const glm::vec3& radiance) {
+    const glm::vec3 away = radius * glm::vec3(1.6f, 2.6f, 1.1f);
+    Model lamp{"lamp", {}};
+    lamp.add(glb.addMaterial(glow("lamp", radiance)), panel(centre + away, -away, radius * glm::vec2(1.5f)));
+    glb.addNode(lamp);
 }
 
 }  // namespace lodestir::generate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a single thing is shown on and before.
+// What a single thing is shown on, before and under.
 #pragma once
 
 #include "glb.h"
@@ -22,5 +22,8 @@ void addTable(Glb& glb, const TableTop& table);
 
 /// A plain rectangle as node "wall", through its upper-left corner, with edges to the right and down.
 void addWall(Glb& glb, const Material& paint, const glm::vec3& corner, const glm::vec3& right, const glm::vec3& down);
+
+/// A glowing sheet as node "lamp", above and aside of a thing of `radius` around `centre`: out of the picture of a camera that looks along -z.
+void addLamp(Glb& glb, const glm::vec3& centre, float radius, const glm::vec3& radiance);
 
 }  // namespace lodestir::generate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// House plants: see foliage.h.
+// Plants: see foliage.h.
 #include "foliage.h"
 
 #include <algorithm>
@@ -23,10 +23,10 @@ float outline(float t) {
 }
 
 /// One leaf: rooted at the origin, growing along `along`, facing `face`; it droops towards the tip and folds up along its midrib.
-Mesh leafMesh(const glm::vec3& root, const glm::vec3& along, const glm::vec3& face, float length, float droop) {
+Mesh leafMesh(const glm::vec3& root, const glm::vec3& along, const glm::vec3& face, float length, float droop, const glm::ivec2& cells = {4, 8}) {
     const glm::vec3 forward = glm::normalize(along), side = glm::normalize(glm::cross(forward, face)), up = glm::cross(side, forward);
     const float width = length * 0.5f;
-    return grid(4, 8, [&](float u, float v) {
+    return grid(cells.x, cells.y, [&](float u, float v) {
         const float t = 1 - v, x = u - 0.5f;
         const float fold = 0.30f * std::abs(x) * width, sag = droop * length * t * t;
         return root + forward * (length * t * (1 - 0.12f * droop * t)) + side * (x * width) + up * (fold - sag);
@@ -35,7 +35,7 @@ Mesh leafMesh(const glm::vec3& root, const glm::vec3& along, const glm::vec3& fa
 
 }  // namespace
 
-Textures paintLeaf(uint32_t seed, int width) {
+Textures paintLeaf(uint32_t seed, int width, const LeafPaint& colors) {
     const Noise noise{seed};
     return paint({.width = width, .height = width * 2, .metres = {0.10f, 0.20f}, .repeats = false}, [&](const glm::vec2& p) {
         const float t = 1 - p.y / 0.20f, x = p.x / 0.10f - 0.5f, away = std::abs(x);
@@ -46,8 +46,8 @@ Textures paintLeaf(uint32_t seed, int width) {
         const float midrib = std::exp(-std::pow(away / (0.022f * (1.2f - t)), 2.0f));
         const float mottle = noise.fractal(glm::vec3(p * 90.0f, 0.5f), 4);
         Surface s;
-        s.color = glm::mix(glm::vec3(0.030f, 0.105f, 0.026f), glm::vec3(0.060f, 0.155f, 0.034f), glm::smoothstep(-0.4f, 0.4f, mottle));
-        s.color = glm::mix(s.color, glm::vec3(0.17f, 0.27f, 0.085f), std::max(0.40f * vein, 0.85f * midrib));
+        s.color = glm::mix(colors.shade, colors.light, glm::smoothstep(-0.4f, 0.4f, mottle));
+        s.color = glm::mix(s.color, colors.vein, std::max(0.40f * vein, 0.85f * midrib));
         s.color *= 1 - 0.3f * glm::smoothstep(0.06f, 0.0f, half - away);
         s.roughness = 0.33f + 0.08f * mottle + 0.1f * midrib;
         s.height = 9e-4f * midrib - 4e-4f * vein + 1e-4f * mottle;
@@ -114,6 +114,54 @@ Model twigs(const std::string& name, uint32_t seed, float length, int count, con
             plant.add(materials.leaf, leafMesh(at(t), out, glm::normalize(glm::vec3(-out.x * 0.5f, 1, -out.z * 0.5f)),
                                                random.between(0.05f, 0.085f), random.between(0.1f, 0.4f)));
         }
+    }
+    return plant;
+}
+
+Model bush(const std::string& name, uint32_t seed, float height, const BushMaterials& materials) {
+    Random random(seed);
+    Model plant{name, {}};
+    int leaves = 0;
+    const auto away = [&](const glm::vec3& along, float turn, float lean) {
+        const glm::vec3 side = glm::normalize(glm::cross(along, std::abs(along.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+        return glm::normalize(std::cos(lean) * along + std::sin(lean) * (std::cos(turn) * side + std::sin(turn) * glm::cross(along, side)));
+    };
+    const auto leaf = [&](const glm::vec3& root, const glm::vec3& along) {
+        const glm::vec3 face = glm::normalize(glm::vec3(-0.4f * along.x, 1, -0.4f * along.z) + 0.35f * glm::vec3(random.bell(), random.bell(), random.bell()));
+        if (std::abs(glm::dot(face, along)) > 0.97f) return;  // no side is left to it
+        plant.add(materials.leaves[size_t(leaves++) % materials.leaves.size()],
+                  leafMesh(root, along, face, height * random.between(0.075f, 0.115f), random.between(0.1f, 0.4f), {2, 4}));
+    };
+    // A shoot bends upwards; along it stand shoots of the next order, or leaves in golden angles.
+    const auto grow = [&](auto&& self, const glm::vec3& root, const glm::vec3& heading, float length, float radius, int order) -> void {
+        constexpr int steps = 6;
+        std::vector<Station> stations{{root, radius}};
+        std::vector<glm::vec3> along{heading};
+        for (int i = 1; i <= steps; ++i) {
+            along.push_back(glm::normalize(along.back() + glm::vec3(0.10f * random.bell(), 0.10f, 0.10f * random.bell())));
+            stations.push_back({stations.back().position + along.back() * (length / steps), radius * (1 - 0.7f * float(i) / steps)});
+        }
+        plant.add(materials.bark, tube(stations, order == 0 ? 8 : 5));
+        const int shoots = order == 0 ? 9 : order == 1 ? 4 : 7;
+        const float first = order == 0 ? 0.30f : order == 1 ? 0.25f : 0.15f, start = random.between(0, tau);
+        for (int i = 0; i < shoots; ++i) {
+            const float t = glm::mix(first, 1.0f, (float(i) + random.next()) / float(shoots)) * steps;
+            const auto k = std::min(size_t(t), size_t(steps - 1));
+            const glm::vec3 from = glm::mix(stations[k].position, stations[k + 1].position, t - float(k));
+            const glm::vec3 out = away(along[k + 1], start + 2.39996323f * float(i), random.between(0.6f, 1.0f));
+            if (order < 2)
+                self(self, from, out, length * (order == 0 ? 0.42f : 0.48f) * random.between(0.8f, 1.2f), radius * 0.42f, order + 1);
+            else
+                leaf(from, out);
+        }
+        leaf(stations.back().position, along.back());
+    };
+    constexpr int stems = 6;
+    for (int i = 0; i < stems; ++i) {
+        const float a = tau * (float(i) + 0.6f * random.next()) / stems, lean = random.between(0.18f, 0.62f);
+        const glm::vec3 out(std::cos(a), 0, std::sin(a));
+        grow(grow, height * 0.03f * out, glm::normalize(glm::vec3(0, 1, 0) * std::cos(lean) + out * std::sin(lean)), height * random.between(0.52f, 0.66f),
+             height * 0.016f, 0);
     }
     return plant;
 }

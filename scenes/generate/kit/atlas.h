@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Pictures for shapes that have no charts of their own: cuts a mesh into pieces that face one axis each, and paints what a place is onto them.
+#pragma once
+
+#include <functional>
+
+#include "mesh.h"
+#include "picture.h"
+
+namespace lodestir::generate {
+
+/// `mesh` in charts that share a square picture of `texels` a side without overlap: each a connected piece, projected along the axis that it faces.
+/// Vertices are split along seams; positions and normals stay. Has tangents.
+Mesh charted(const Mesh& mesh, int texels);
+
+/// Pictures for a mesh of charted(). `surface` says what a place is; heights are metres along the normal.
+Textures bake(const Mesh& charted, int texels, const std::function<Surface(const glm::vec3& position, const glm::vec3& normal)>& surface);
+
+}  // namespace lodestir::generate
