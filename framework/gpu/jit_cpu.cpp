@@ -19,7 +19,9 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace lodestir::gpu {
 
@@ -56,20 +58,24 @@ bool hasAvx512() { return false; }
 bool hasAvx2() { return false; }
 #endif
 
-/// LLVM's own function, in the library that the driver has brought along; nullptr where there is none.
+/// LLVM's own function, in the library that the driver has brought along; nullptr where there is none. The walk over libraries holds a lock that a dlopen
+/// of another thread waits for while it holds the one that dlopen takes: so libraries are opened after it.
 Name (*ownFunction())() {
-    void* function = nullptr;
+    std::vector<std::string> libraries;
     dl_iterate_phdr(
-        [](dl_phdr_info* library, std::size_t, void* result) {
-            if (!std::strstr(library->dlpi_name, "libLLVM")) return 0;
-            void* handle = dlopen(library->dlpi_name, RTLD_LAZY | RTLD_NOLOAD);
-            if (!handle) return 0;
-            *static_cast<void**>(result) = dlsym(handle, symbol);
-            dlclose(handle);  // it was loaded before, and stays
-            return *static_cast<void**>(result) ? 1 : 0;
+        [](dl_phdr_info* library, std::size_t, void* found) {
+            if (std::strstr(library->dlpi_name, "libLLVM")) static_cast<std::vector<std::string>*>(found)->emplace_back(library->dlpi_name);
+            return 0;
         },
-        &function);
-    return reinterpret_cast<Name (*)()>(function);
+        &libraries);
+    for (const std::string& library : libraries) {
+        void* handle = dlopen(library.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+        if (!handle) continue;
+        void* function = dlsym(handle, symbol);
+        dlclose(handle);  // it was loaded before, and stays
+        if (function) return reinterpret_cast<Name (*)()>(function);
+    }
+    return nullptr;
 }
 
 }  // namespace
