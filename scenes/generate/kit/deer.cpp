@@ -18,7 +18,6 @@ namespace lodestir::generate {
 namespace {
 
 constexpr float cell = 0.0175f;  ///< metres: the thinnest shank is two and a half across
-constexpr int pictureTexels = 2048;
 
 /// The head turns on its neck.
 const glm::mat4 headFrame = [] {
@@ -171,19 +170,19 @@ Surface bone(const glm::vec3& p) {
 
 }  // namespace
 
-Model deer(Glb& glb, const std::string& name) {
+Model deer(Glb& glb, const std::string& name, int texels) {
     Sculpture clay;
     addTrunk(clay);
     addLegs(clay);
     addHead(clay);
     Mesh mesh = clay.mesh(cell);
     append(mesh, antlers());
-    mesh = charted(mesh, pictureTexels);
+    mesh = charted(mesh, texels);
     const auto isBone = [](const glm::vec3& p) {
         const glm::vec3 q(glm::inverse(headFrame) * glm::vec4(p, 1));
         return q.y > 1.60f + 0.35f * std::max(0.70f - q.x, 0.0f) || (q.y > 1.548f && q.x > 0.70f && std::abs(q.z) < 0.1f);
     };
-    const Textures pictures = bake(mesh, pictureTexels, [&](const glm::vec3& p, const glm::vec3& n) { return isBone(p) ? bone(p) : coat(p, n); });
+    const Textures pictures = bake(mesh, texels, [&](const glm::vec3& p, const glm::vec3& n) { return isBone(p) ? bone(p) : coat(p, n); });
     Model model{name, {}};
     model.parts.emplace_back(glb.addMaterial(glb.dressed({.name = name}, pictures)), mesh);
     return model;

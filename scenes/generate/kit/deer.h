@@ -8,7 +8,7 @@
 
 namespace lodestir::generate {
 
-/// All of one mesh and one material.
-Model deer(Glb& glb, const std::string& name);
+/// All of one mesh and one material, whose pictures are `texels` a side.
+Model deer(Glb& glb, const std::string& name, int texels);
 
 }  // namespace lodestir::generate

@@ -8,7 +8,7 @@ namespace lodestir::generate {
 
 static Glb makeDeer() {
     Glb glb;
-    glb.addNode(deer(glb, "deer"));
+    glb.addNode(deer(glb, "deer", 2048));
     addLamp(glb, {0.1f, 1.05f, 0}, 1.25f, {11, 10.2f, 9});
     return glb;
 }

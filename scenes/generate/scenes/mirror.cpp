@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A knot of polished silver by itself: a flat bar that winds twice around, thrice through itself, and twists on its way. Nothing but reflections.
+// A knot of polished gold by itself: a flat bar that winds twice around, thrice through itself, and twists on its way. Nothing but reflections.
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +14,7 @@ namespace lodestir::generate {
 namespace {
 
 constexpr float tau = 2 * std::numbers::pi_v<float>;
-constexpr int stations = 1200, sides = 96;  ///< 230,400 triangles
+constexpr int stations = 960, sides = 72;  ///< 138,240 triangles
 constexpr float around = 2, through = 3, ring = 0.62f, winding = 0.27f;
 constexpr glm::vec2 section(0.205f, 0.105f);  ///< half axes
 constexpr float halfTwists = 3;               ///< odd: the bar's broad side comes back as its other one
@@ -55,7 +55,7 @@ Mesh knot() {
 Glb makeMirror() {
     Glb glb;
     Model model{"mirror", {}};
-    model.add(glb.addMaterial({.name = "mirror", .color = silver, .roughness = 0.05f, .metalness = 1}), knot());
+    model.add(glb.addMaterial({.name = "mirror", .color = gold, .roughness = 0.05f, .metalness = 1}), knot());
     glb.addNode(model, {.rotation = glm::angleAxis(glm::radians(62.0f), glm::normalize(glm::vec3(1, 0.1f, -0.25f)))});
     addLamp(glb, {0, 0, 0}, 1.05f, {14, 12.5f, 10});
     return glb;
