@@ -23,12 +23,12 @@ struct SeenAtlas {
 
 bool seeInstance(Atlases made, AtlasRecord object, ObjectRay ray, vec3 towards, uint level, out SeenAtlas seen);
 
-/// Where a ray is nearest to the centre, and half the way that it runs through the sphere; false where it misses it.
-bool throughSphere(ObjectRay ray, out float middle, out float reach) {
+/// Where a ray is nearest to the centre, and half the way that it runs through a sphere around it; false where it misses that, or left it before.
+bool throughSphere(ObjectRay ray, float radius, out float middle, out float reach) {
     float squared = dot(ray.direction, ray.direction);
     middle = -dot(ray.origin, ray.direction) / squared;
     vec3 nearest = ray.origin + middle * ray.direction;
-    reach = sqrt(max(1.0 - dot(nearest, nearest), 0.0) / squared);
+    reach = sqrt(max(radius * radius - dot(nearest, nearest), 0.0) / squared);
     return reach > 0.0 && middle + reach > 0.0;
 }
 
@@ -53,7 +53,7 @@ bool seeFrom(World w, Atlases made, uint instance, uint level, ivec2 pixel, out 
     vec3 towards = safeNormalize(unplaceVector(placement, camera), vec3(0.0, 0.0, 1.0));
     depth = 0.0;
     float middle, reach;
-    if (!throughSphere(own, middle, reach) || !seeInstance(made, object, own, towards, level, seen)) return false;
+    if (!throughSphere(own, 1.0, middle, reach) || !seeInstance(made, object, own, towards, level, seen)) return false;
     depth = dot(center + placeVector(placement, object.radius * seen.position) - w.camera.position, w.camera.forward);
     return depth > 0.0;
 }

@@ -3,7 +3,7 @@
 // is in the middle of the grid.
 #include "impostor/texel.glsl"
 
-const float HORIZON = 0.001;  // least height of a direction on the map of the hemisphere: what lies lower is seen as from there
+const float HORIZON = 1e-5;  // least height of a direction on the map of the hemisphere: what lies lower is seen as from there
 
 /// A unit direction on [-1, 1]^2 and back: the sphere, whose lower pole is in all four corners, or the upper hemisphere.
 vec2 gridPlace(bool isHemi, vec3 direction) {

@@ -23,8 +23,8 @@ struct ImpostorAtlas final : Pass {
     Param<int>         resolution{this, "resolution", 128, {16, 1024},
                           "texels a side of a view at its finest level, a power of 2; with mipmaps a texel takes 10.7 bytes, 21.3 with matched attributes"};
     Param<Attributes>  attributes{this, "attributes", Attributes::matched, {"paper", "matched"},
-                                 "what is kept, paper: base colour, normal and alpha, all else being the same everywhere: roughness 0.7, metallic 0, no emission, "
-                                 "depth that of the view's plane; matched: depth, roughness, metallic and emission as well"};
+                                 "what is kept, paper: base colour, normal and alpha, all else being the same everywhere: roughness 0.7, metallic 0, no "
+                                 "emission, depth that of the view's plane; matched: depth, roughness, metallic and emission as well"};
     ImpostorAtlas() { cadence = Cadence::onChange; }
 
     void execute(Frame& frame) override {
@@ -43,7 +43,7 @@ struct ImpostorAtlas final : Pass {
                      .isMatched = attributes == Attributes::matched ? 1u : 0u};
         const std::uint64_t texels = texelCount(made), perMesh = texels * sizeof(glm::uvec2) * (1 + made.isMatched);
         if (texels > mostTexels)
-            throw Error("an impostor_atlas has " + std::to_string(texels) + " texels a mesh, more than the " + std::to_string(mostTexels) + " that it can number",
+            throw Error("an impostor_atlas has " + std::to_string(texels) + " texels a mesh, more than " + std::to_string(mostTexels),
                         "lower \"across\" or \"resolution\"");
         std::vector<AtlasRecord> records(made.meshes);
         for (const std::uint32_t m : baked) {

@@ -9,8 +9,9 @@ enum class Parallax { off, step, relief };
 struct ImpostorOctahedral final : Pass {
     AtlasDrawing    drawing{this};
     Param<Parallax> parallax{this, "parallax", Parallax::step, {"off", "step", "relief"},
-                             "where a view is read: where the ray meets its plane; a step from there towards the surface below; where the ray meets the surface"};
-    Param<int>      steps{this, "steps", 8, {2, 128}, "of relief: through the sphere around the mesh"};
+                             "where a view is read: where the ray meets its plane; a step from there towards the surface below; where the ray meets the "
+                             "surface"};
+    Param<int>      steps{this, "steps", 16, {2, 128}, "of relief: through the sphere around the mesh"};
 
     void execute(Frame& frame) override {
         const Atlases made = frame.valueOf(drawing.atlases);

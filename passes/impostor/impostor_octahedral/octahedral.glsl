@@ -30,7 +30,7 @@ float heightOver(Atlases made, AtlasRecord object, uint view, uint level, Object
 /// passes behind. Outside of the window where it meets nothing.
 vec2 descend(Atlases made, AtlasRecord object, uint view, uint level, ObjectRay ray) {
     float middle, reach;
-    throughSphere(ray, middle, reach);
+    throughSphere(ray, 1.0 + atlasTexelSide(made, level), middle, reach);  // begins above what touches the sphere
     float size = 2.0 * reach / float(params.steps), fall = size * abs(ray.direction.z);
     float t = middle - reach, before = heightOver(made, object, view, level, ray, t);
     for (int i = 0; i < params.steps; ++i) {
