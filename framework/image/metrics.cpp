@@ -163,6 +163,7 @@ constexpr Metric table[] = {
     {"smape", "mean of |x - r| / (|x| + |r| + 0.01) over pixels and channels, 0 to 1; images scaled as for relmse", {}, byChannel<symmetric>,
      mean},
     {"bias", "mean(x) / mean(r) - 1 over pixels and channels; positive where x is too bright", {.fromZero = false}, relativeDifference, mean},
+    {"mse_display", "mse of the images as displayed (clamped to [0, 1], sRGB-encoded, peak 1)", {}, byChannel<squaredDisplayed>, mean},
     {"psnr", "-10 log10 of the mse of the images as displayed (clamped to [0, 1], sRGB-encoded, peak 1), dB; infinite for equal images", {"dB", false},
      byChannel<squaredDisplayed>, decibels},
     {"flip",

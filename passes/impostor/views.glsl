@@ -17,12 +17,13 @@ struct ImpostorView {
     vec3 x, y, d;  // right, up and towards the camera: orthonormal, right-handed, object space
 };
 
-/// The mesh's Y is up, where it isn't where the camera looks from; there it is Z. A rule that a bake made anew follows again.
-ImpostorView impostorView(uint views, uint view) {
-    vec3 d = viewDirection(views, view);
+/// From a unit direction. The mesh's Y is up, where it isn't where the camera looks from; there it is Z. A rule that a bake made anew follows again.
+ImpostorView viewFrom(vec3 d) {
     vec3 x = normalize(cross(abs(d.y) > 0.99 ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0), d));
     return ImpostorView(x, cross(d, x), d);
 }
+
+ImpostorView impostorView(uint views, uint view) { return viewFrom(viewDirection(views, view)); }
 
 vec3 intoView(ImpostorView v, vec3 direction) { return vec3(dot(v.x, direction), dot(v.y, direction), dot(v.d, direction)); }
 vec3 outOfView(ImpostorView v, vec3 direction) { return direction.x * v.x + direction.y * v.y + direction.z * v.d; }

@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "impostor/reduce.glsl"
+#include "impostor/seen_normal.glsl"
 #include "store_texel.glsl"
 #include "trace/reference.glsl"
 #include "trace/trace.glsl"
@@ -59,10 +60,7 @@ ImpostorTexel sampleOf(World w, Impostors made, ImpostorRecord object, ImpostorV
     if (hit.primitive == NONE) return t;
     Surface s = surfaceAt(w, hit, -v.d);
     uint flags = w.materials.at[s.material].flags;
-    // Not bent towards this view, as Surface.shadingNormal is: it will be seen from elsewhere.
-    vec3 n = s.frame[2];
-    if (w.materials.at[s.material].normalMap.texture != NONE) n = mapNormal(w, s, cornersOf(w, s.primitive), s.frame);
-    n = s.frontFace ? n : -n;
+    vec3 n = seenNormal(w, s);
     t.flags = ((flags & MATERIAL_DOUBLE_SIDED) != 0u ? TEXEL_TWO_SIDED : 0u) | (s.frontFace ? 0u : TEXEL_BACK) |
               (dot(n, s.normal) < 0.95 ? TEXEL_BUMPED : 0u);
     n = intoView(v, n);

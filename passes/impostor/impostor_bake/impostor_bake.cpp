@@ -3,12 +3,12 @@
 #include <framework/pass/pass.h>
 #include <framework/pass/scene.h>
 
+#include <passes/impostor/baked_meshes.h>
+
 #include "palette.h"
 
 #include <algorithm>
 #include <bit>
-#include <limits>
-#include <set>
 
 using namespace lodestir;
 
@@ -31,7 +31,7 @@ struct ImpostorBake final : Pass {
         if (!std::has_single_bit(std::uint32_t(int(resolution))))
             throw Error("an impostor_bake has a resolution of " + std::to_string(int(resolution)) + ", which is no power of 2",
                         "set \"resolution\" to " + std::to_string(std::bit_floor(std::uint32_t(int(resolution)))));
-        const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene());
+        const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene(), mesh, "impostor_bake");
         const Memory objects = frame.objects();
         std::vector<Memory> memories{objects};
         Impostors made{.objects = 0,
@@ -80,41 +80,6 @@ private:
         std::uint64_t count = 0;
         for (std::uint32_t level = 0; level < made.levels; ++level) count += std::uint64_t(tilesAcross(made, level)) * tilesAcross(made, level);
         return count * made.views;
-    }
-
-    std::vector<std::uint32_t> bakedMeshes(const Scene& scene) const {
-        const std::string& wanted = mesh;
-        std::set<std::uint32_t> shown;
-        std::vector<std::string> names;
-        for (const Instance& instance : scene.instances) {
-            const std::string& name = scene.meshes[instance.mesh].name;
-            names.push_back(name);
-            if ((wanted.empty() || name == wanted) && !scene.meshes[instance.mesh].levels.front().triangles.empty()) shown.insert(instance.mesh);
-        }
-        if (!wanted.empty() && shown.empty())
-            throw Error(Where{scene.file.string()}, "no instance shows a mesh \"" + wanted + "\" for an impostor_bake to bake", didYouMean(wanted, names));
-        return {shown.begin(), shown.end()};
-    }
-
-    struct Sphere {
-        glm::vec3 center;
-        float radius;
-    };
-    /// Around the finest level, from the middle of its box: a ball fills its views.
-    static Sphere sphereAround(const SceneRecords& scene, std::uint32_t m) {
-        const LevelRecord& level = scene.meshLevels[m * LEVELS];
-        const auto triangles = scene.primitives.subspan(level.firstPrimitive, level.primitiveCount);
-        glm::vec3 low(std::numeric_limits<float>::max()), high = -low;
-        for (const PrimitiveRecord& t : triangles) {
-            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) {
-                low = glm::min(low, scene.positions[v]);
-                high = glm::max(high, scene.positions[v]);
-            }
-        }
-        Sphere sphere{low + 0.5f * (high - low), 0};
-        for (const PrimitiveRecord& t : triangles)
-            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, scene.positions[v]));
-        return sphere;
     }
 
     static ImpostorRecord recordOf(Frame& frame, const Impostors& made, std::uint32_t m, const Palette& palette, std::vector<Memory>& memories) {
