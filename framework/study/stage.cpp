@@ -128,7 +128,7 @@ void Stage::check() {
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         attempt([&] {
             const StagedGraph reference = build(study_.reference, {}, scene, 0);
-            samplesParameter(reference.graph, study_.reference.where);
+            if (!study_.referenceExact) samplesParameter(reference.graph, study_.reference.where);
             referenceFilters = filtersOf(reference.graph, reference.port);
         });
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
@@ -259,13 +259,13 @@ std::array<ReferenceHalf, 2> Stage::referenceHalves(std::size_t sceneIndex, int 
     const PolicyKeeper policy(scene_);
     if (finest) scene_.lod.mode = LodMode::finest;
     const StagedGraph staged = build(study_.reference, {}, sceneIndex, 0);
-    const int frame = firstAlike(study_, scene_, study_.event + offset);
+    const int frame = study_.referenceExact ? study_.event + offset : firstAlike(study_, scene_, study_.event + offset);
     Hash content;
     content.addValue(sceneHash).addValue(lodestir::contentOf(staged.graph)).add(staged.graph.nameOf(staged.port));
     content.addValue(frame).addValue(study_.referenceSamples);
     if (finest) content.add("finest");
     const auto half = [&](std::uint32_t index) {
-        return ReferenceHalf{sceneIndex, frame, finest, index, folder / (content.hex() + (index == 0 ? ".a.exr" : ".b.exr"))};
+        return ReferenceHalf{sceneIndex, frame, finest, index, folder / (content.hex() + (study_.referenceExact ? ".exr" : index == 0 ? ".a.exr" : ".b.exr"))};
     };
     return {half(0), half(1)};
 }
@@ -288,6 +288,12 @@ int Stage::samplesAFrame(const Graph& graph) const {
 
 /// Frames of one number and different seeds: every frame is a fresh start, so that nothing moves and none is weighted by history.
 ImageData Stage::renderHalf(StagedGraph& staged, const ReferenceHalf& half) {
+    if (study_.referenceExact) {
+        const std::unique_ptr<Runner> runner = makeRunner(staged, half.scene);
+        runner->setFrame(std::uint32_t(half.frame));
+        runner->run();
+        return firstChannels(imageOf(*runner, staged), 3);
+    }
     const std::string samplesName = samplesParameter(staged.graph, study_.reference.where);
     setParameter(staged.graph, samplesName, Json(samplesAFrame(staged.graph)));
     const std::unique_ptr<Runner> runner = makeRunner(staged, half.scene);

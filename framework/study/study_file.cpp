@@ -349,8 +349,11 @@ private:
         Fields fields(value, "the reference", problems_);
         readGraph(fields, study_.reference);
         if (study_.kind == StudyKind::error) problems_.attempt([&] { study_.referenceFinest = readFlag(fields.find("finest"), "\"finest\""); });
-        if (const Json* samples = fields.require("spp"))
+        if (study_.kind == StudyKind::error) problems_.attempt([&] { study_.referenceExact = readFlag(fields.find("exact"), "\"exact\""); });
+        const Json* samples = study_.referenceExact ? fields.find("spp") : fields.require("spp");
+        if (samples)
             problems_.attempt([&] {
+                if (study_.referenceExact) throw Error(samples->keyWhere(), "an exact reference takes no samples", "remove \"spp\" or \"exact\"");
                 study_.referenceSamples = int(within(*samples, "the reference's \"spp\"", 2, maxReferenceSamples));
                 if (study_.kind == StudyKind::ensemble && study_.referenceSamples % referenceBatches != 0)
                     throw Error(samples->where(), fmt::format("the reference's \"spp\" must be a multiple of {}", referenceBatches),

@@ -130,6 +130,7 @@ struct Study {
     std::vector<int> measure;  ///< frames after the event (negative: before), rising
     StudyGraph reference;
     int referenceSamples = 0;  ///< a pixel, both halves together
+    bool referenceExact = false;  ///< it has no noise, and is rendered once, frame by frame as the techniques are
     std::vector<Technique> techniques;
     std::vector<std::string> metrics, charts;  ///< none in an ensemble
     std::vector<Mask> masks;                   ///< errors there are measured beside those of the whole frame
