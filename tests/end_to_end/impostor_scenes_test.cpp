@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes for impostors hold what impostors are judged by in them: one thing that fills the picture, a plain ground behind it, light of three kinds, and what each
-// scene is named for. Pictures look right without.
+// Scenes for impostors hold what impostors are judged by in them: one thing that fills the picture, a plain ground behind it, light of three kinds, and what
+// each scene is named for. Pictures look right without.
 #include "source_folder.h"
 
 #include <framework/core/error.h>
@@ -63,15 +63,12 @@ struct Object {
 
 std::ostream& operator<<(std::ostream& out, const Object& object) { return out << object.scene; }
 
-class ImpostorScene : public testing::TestWithParam<Object> {};
-
 // If this fails, errors of the thing are diluted by what is around it, or cut off by the picture's edge.
-TEST_P(ImpostorScene, ShowsOneThingThatFillsTheSquare) {
-    const Scene scene = loaded(GetParam().scene);
+void expectOneThingThatFillsTheSquare(const Scene& scene, const Object& object) {
     ASSERT_EQ(scene.instances.size(), 2u);  // and the lamp
     const CameraKey camera = scene.cameraAt(0);
     glm::vec2 low(1e9f), high(-1e9f);
-    for (const glm::vec3& p : pointsOf(scene, instanceNamed(scene, GetParam().name))) {
+    for (const glm::vec3& p : pointsOf(scene, instanceNamed(scene, object.name))) {
         low = glm::min(low, shownAt(camera, p));
         high = glm::max(high, shownAt(camera, p));
     }
@@ -82,22 +79,20 @@ TEST_P(ImpostorScene, ShowsOneThingThatFillsTheSquare) {
     EXPECT_LT(span, 0.92f);
 }
 
-TEST_P(ImpostorScene, HasTheTrianglesAndLevelsThatItSays) {
-    const Scene scene = loaded(GetParam().scene);
-    const Mesh& mesh = scene.meshes[instanceNamed(scene, GetParam().name).mesh];
-    EXPECT_GE(mesh.levels.front().triangles.size(), GetParam().fewest);
-    EXPECT_LE(mesh.levels.front().triangles.size(), GetParam().most);
-    EXPECT_EQ(mesh.levels.size(), GetParam().levels);
+void expectTrianglesAndLevels(const Scene& scene, const Object& object) {
+    const Mesh& mesh = scene.meshes[instanceNamed(scene, object.name).mesh];
+    EXPECT_GE(mesh.levels.front().triangles.size(), object.fewest);
+    EXPECT_LE(mesh.levels.front().triangles.size(), object.most);
+    EXPECT_EQ(mesh.levels.size(), object.levels);
 }
 
 // An impostor that is shaded anew has to meet light from afar, from a lamp with extent and from one without.
-TEST_P(ImpostorScene, IsLitInThreeWaysAndSeesNoLamp) {
-    const Scene scene = loaded(GetParam().scene);
+void expectThreeLightsOutOfSight(const Scene& scene, const Object& object) {
     EXPECT_EQ(scene.environment.type, EnvironmentType::sky);
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].type, LightType::point);
     for (std::uint32_t material : wornBy(scene, "lamp")) EXPECT_TRUE(scene.materials[material].isLight());
-    for (std::uint32_t material : wornBy(scene, GetParam().name)) EXPECT_FALSE(scene.materials[material].isLight());
+    for (std::uint32_t material : wornBy(scene, object.name)) EXPECT_FALSE(scene.materials[material].isLight());
     const CameraKey camera = scene.cameraAt(0);
     glm::vec2 low(1e9f), high(-1e9f);  // a convex sheet is out of sight when all of it lies beyond one side
     for (const glm::vec3& p : pointsOf(scene, instanceNamed(scene, "lamp"))) {
@@ -109,8 +104,7 @@ TEST_P(ImpostorScene, IsLitInThreeWaysAndSeesNoLamp) {
 }
 
 // What is seen past the thing is one colour: whatever differs there is the impostor's.
-TEST_P(ImpostorScene, StandsBeforeAPlainGround) {
-    const Scene scene = loaded(GetParam().scene);
+void expectAPlainGround(const Scene& scene) {
     const CameraKey camera = scene.cameraAt(0);
     const glm::mat4 toWorld = glm::inverse(viewOf(camera));
     const auto radianceAt = [&](const glm::vec2& film) {
@@ -123,19 +117,17 @@ TEST_P(ImpostorScene, StandsBeforeAPlainGround) {
     const glm::vec3 middle = radianceAt({0, 0});
     EXPECT_GT(middle.g, 0.01f);
     for (float x = -1; x <= 1; x += 0.25f)
-        for (float y = -1; y <= 1; y += 0.25f)
-            EXPECT_LT(glm::distance(radianceAt({x, y}), middle), 0.1f * glm::length(middle)) << x << " " << y;
+        for (float y = -1; y <= 1; y += 0.25f) EXPECT_LT(glm::distance(radianceAt({x, y}), middle), 0.1f * glm::length(middle)) << x << " " << y;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, ImpostorScene,
-    testing::Values(Object{"deer", "deer", 25000, 40000, 4}, Object{"bunny", "bunny", 200000, 500000, 5}, Object{"mirror", "mirror", 100000, 500000, 4},
-                    Object{"teapot", "teapot", 100000, 500000, 4}, Object{"foliage", "foliage", 20000, 200000, 1},
-                    Object{"impostor_sphere", "sphere", 95000, 105000, 5}, Object{"impostor_torus", "torus", 10000, 100000, 4},
-                    Object{"impostor_bowls", "bowls", 10000, 200000, 4}, Object{"impostor_wires", "wires", 1000, 10000, 1},
-                    Object{"impostor_checker", "checker", 320000, 320000, 1}, Object{"impostor_seam", "seam", 1000, 10000, 1},
-                    Object{"impostor_bumps", "bumps", 10000, 100000, 1}),
-    [](const auto& object) { return std::string(object.param.scene); });
+INSTANTIATE_TEST_SUITE_P(Scenes, ImpostorScene,
+                         testing::Values(Object{"deer", "deer", 25000, 40000, 4}, Object{"bunny", "bunny", 200000, 500000, 5},
+                                         Object{"mirror", "mirror", 100000, 500000, 4}, Object{"teapot", "teapot", 100000, 500000, 4},
+                                         Object{"foliage", "foliage", 20000, 200000, 1}, Object{"impostor_sphere", "sphere", 95000, 105000, 5},
+                                         Object{"impostor_torus", "torus", 10000, 100000, 4}, Object{"impostor_bowls", "bowls", 10000, 200000, 4},
+                                         Object{"impostor_wires", "wires", 1000, 10000, 1}, Object{"impostor_checker", "checker", 320000, 320000, 1},
+                                         Object{"impostor_seam", "seam", 1000, 10000, 1}, Object{"impostor_bumps", "bumps", 10000, 100000, 1}),
+                         [](const auto& object) { return std::string(object.param.scene); });
 
 TEST(ImpostorScenes, TheMirrorReflectsAndDoesNothingElse) {
     const Scene scene = loaded("mirror");
@@ -164,9 +156,8 @@ TEST(ImpostorScenes, TheTeapotIsNormalMappedAndItsGlossVaries) {
 TEST(ImpostorScenes, LeavesAreCutOutAndSeenFromBothSides) {
     const Scene scene = loaded("foliage");
     const MeshLevel& level = finestOf(scene, "foliage");
-    const auto leaves = std::ranges::count_if(level.materials, [&](std::uint32_t id) {
-        return scene.materials[id].alphaMode == AlphaMode::mask && scene.materials[id].doubleSided;
-    });
+    const auto leaves = std::ranges::count_if(
+        level.materials, [&](std::uint32_t id) { return scene.materials[id].alphaMode == AlphaMode::mask && scene.materials[id].doubleSided; });
     EXPECT_GT(double(leaves), 0.5 * double(level.materials.size()));
 }
 

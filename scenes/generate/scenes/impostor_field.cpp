@@ -22,7 +22,7 @@ namespace lodestir::generate {
 
 namespace {
 
-constexpr int rows = 100;                   ///< of the grid that things are shaken out of; as many a row
+constexpr int rows = 100;                        ///< of the grid that things are shaken out of; as many a row
 constexpr float nearest = 4.5f, farthest = 390;  ///< metres from where a viewer stands, at (0, 4)
 
 /// A crown of bushes on a forked trunk.
@@ -33,8 +33,11 @@ Model tree(const std::string& name, const BushMaterials& materials) {
         glm::vec3 end;
         float turn, scale;
     };
-    const Bough boughs[] = {{{0, 3.3f, 0}, 0, 1.15f},         {{1.15f, 2.7f, 0.2f}, 100, 0.95f},  {{-1.0f, 2.8f, 0.5f}, 200, 1.0f},
-                            {{0.1f, 2.5f, 1.15f}, 290, 0.9f}, {{-0.2f, 2.6f, -1.1f}, 40, 0.95f}};
+    const Bough boughs[] = {{{0, 3.3f, 0}, 0, 1.15f},
+                            {{1.15f, 2.7f, 0.2f}, 100, 0.95f},
+                            {{-1.0f, 2.8f, 0.5f}, 200, 1.0f},
+                            {{0.1f, 2.5f, 1.15f}, 290, 0.9f},
+                            {{-0.2f, 2.6f, -1.1f}, 40, 0.95f}};
     for (const Bough& b : boughs) {
         const Station wood[] = {{{0, -0.2f, 0}, 0.17f}, {{0.04f, 0.8f, 0}, 0.13f}, {glm::mix(glm::vec3(0, 1.4f, 0), b.end, 0.25f), 0.085f}, {b.end, 0.045f}};
         model.add(materials.bark, limb(wood, 6, 10));
@@ -81,9 +84,11 @@ void addThings(Glb& glb, const Terrain& terrain) {
     const int bark = glb.addMaterial({.name = "bark", .color = {0.11f, 0.08f, 0.055f}, .roughness = 0.9f});
     const Stone stone(44, {.size = {1.2f, 0.95f, 1.05f}, .facets = 15, .sharpness = 18, .relief = 1});
     const Mesh rock = stone.mesh(32);
-    const Kind boulder{"boulder", glb.addMesh("boulder", {{glb.addGeometry(rock), glb.addMaterial(glb.dressed({.name = "boulder"}, stone.bake(rock, 256)))}}), 1.1f},
+    const Kind boulder{"boulder", glb.addMesh("boulder", {{glb.addGeometry(rock), glb.addMaterial(glb.dressed({.name = "boulder"}, stone.bake(rock, 256)))}}),
+                       1.1f},
         buck{"deer", glb.addMesh(deer(glb, "deer", 1024)), 0.95f}, hare{"rabbit", glb.addMesh(rabbit(glb, "rabbit", 0.004f)), 0.24f},
-        shrub{"bush", glb.addMesh(bush("bush", 5, 1, {{dark, pale, dark}, bark})), 0.5f}, wood{"tree", glb.addMesh(tree("tree", {{dark, rust, pale, rust}, bark})), 1.9f};
+        shrub{"bush", glb.addMesh(bush("bush", 5, 1, {{dark, pale, dark}, bark})), 0.5f},
+        wood{"tree", glb.addMesh(tree("tree", {{dark, rust, pale, rust}, bark})), 1.9f};
 
     Random random(6);
     const Noise herds{5}, woods{8};
@@ -99,7 +104,7 @@ void addThings(Glb& glb, const Terrain& terrain) {
         const float away = nearest * std::pow(farthest / nearest, std::pow(v, 0.7f));
         const Spot spot{{(u - 0.5f) * (4 + 1.15f * away), 4 - away}, away, random.next(), random.between(0.82f, 1.12f), random.bell(), random.between(0, 360)};
         const float herd = herds.fractal(glm::vec3(spot.xz, 0.5f) * 0.055f, 2), grove = woods.fractal(glm::vec3(spot.xz, 3.5f) * 0.022f, 2);
-        if (grove > 0.08f && away > 32 && spot.choice < 0.55f && field.isFree(spot.xz, wood.room))
+        if (grove > 0.08f && away > 55 && spot.choice < 0.55f && field.isFree(spot.xz, wood.room))
             field.put(wood, spot.xz, 0.05f, turnY(spot.any), spot.size * glm::vec3(1.25f, 1.35f, 1.25f));
         else if (herd > 0.02f && away > 12 && spot.choice < 0.8f && field.isFree(spot.xz, 1.25f * buck.room))
             field.put(buck, spot.xz, 0.01f, turnY(205 + 38 * spot.turn), glm::vec3(spot.size));  // a herd goes one way
