@@ -38,8 +38,8 @@ void addBody(Sculpture& clay) {
         const Station upper[] = {{at(0.15f, 0.30f, 0.09f), 0.095f}, {at(0.19f, 0.20f, 0.105f), 0.068f}};
         clay.limb(upper);
         clay.blend = 0.02f;
-        const Station lower[] = {{at(0.19f, 0.20f, 0.105f), 0.068f}, {at(0.225f, 0.08f, 0.095f), 0.044f}, {at(0.25f, 0.042f, 0.095f), 0.043f},
-                                 {at(0.31f, 0.038f, 0.098f), 0.040f}};
+        const Station lower[] = {
+            {at(0.19f, 0.20f, 0.105f), 0.068f}, {at(0.225f, 0.08f, 0.095f), 0.044f}, {at(0.25f, 0.042f, 0.095f), 0.043f}, {at(0.31f, 0.038f, 0.098f), 0.040f}};
         clay.limb(lower);
         clay.blend = 0.008f;
         for (float toe : {-0.024f, 0.0f, 0.024f}) {  // clefts between toes

@@ -48,8 +48,8 @@ float Sculpture::Part::distance(glm::vec3 p) const {
 
 void Sculpture::limb(std::span<const Station> stations) {
     for (size_t i = 1; i < stations.size(); ++i)
-        parts.push_back({glm::inverse(frame), blend, slim, false, false, stations[i - 1].position, stations[i].position, stations[i - 1].radius,
-                         stations[i].radius});
+        parts.push_back(
+            {glm::inverse(frame), blend, slim, false, false, stations[i - 1].position, stations[i].position, stations[i - 1].radius, stations[i].radius});
 }
 
 void Sculpture::lump(const glm::vec3& centre, const glm::mat3& axes) { ellipsoid(centre, axes, false); }
@@ -63,8 +63,7 @@ void Sculpture::ellipsoid(const glm::vec3& centre, const glm::mat3& axes, bool i
 
 float Sculpture::distance(const glm::vec3& p, std::span<const Part> near) const {
     float d = 1e3f;
-    for (const Part& part : near)
-        d = part.isCarved ? -smoothMinimum(-d, part.distance(p), part.blend) : smoothMinimum(d, part.distance(p), part.blend);
+    for (const Part& part : near) d = part.isCarved ? -smoothMinimum(-d, part.distance(p), part.blend) : smoothMinimum(d, part.distance(p), part.blend);
     return relief ? d - relief(p) : d;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A drum on a block whose charts meet in seams: what lies side by side on the surface lies far apart in the picture, with magenta between, and on the drum's upper
-// half coordinates run on from 1 into the picture's next copy. The mean of two coordinates across a seam is a place whose colour is nowhere on the surface.
+// A drum on a block whose charts meet in seams: what lies side by side on the surface lies far apart in the picture, with magenta between, and on the drum's
+// upper half coordinates run on from 1 into the picture's next copy. The mean of two coordinates across a seam is a place whose colour is nowhere on the surface.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -62,9 +62,11 @@ Glb makeSeam() {
             8, 8, [&](float u, float v) { return block * (outs[f] + (2 * u - 1) * rights[f]) + glm::vec3(0, -0.85f + 0.7f * (1 - v), 0); },
             [&](const glm::vec2& w) { return chartUv(charts[f], w); });
     add(
-        8, 8, [](float u, float v) { return glm::vec3(block * (2 * u - 1), -0.15f, block * (2 * v - 1)); }, [](const glm::vec2& w) { return chartUv(charts[4], w); });
+        8, 8, [](float u, float v) { return glm::vec3(block * (2 * u - 1), -0.15f, block * (2 * v - 1)); },
+        [](const glm::vec2& w) { return chartUv(charts[4], w); });
     add(
-        8, 8, [](float u, float v) { return glm::vec3(block * (2 * u - 1), -0.85f, block * (1 - 2 * v)); }, [](const glm::vec2& w) { return chartUv(charts[5], w); });
+        8, 8, [](float u, float v) { return glm::vec3(block * (2 * u - 1), -0.85f, block * (1 - 2 * v)); },
+        [](const glm::vec2& w) { return chartUv(charts[5], w); });
     // The drum: below two charts of half its girth each, above the band twice around, whose coordinates cross 1 without a cut.
     constexpr float radius = 0.42f;
     const auto drum = [](float turn, float y) { return glm::vec3(radius * std::sin(tau * turn), y, radius * std::cos(tau * turn)); };
@@ -79,7 +81,9 @@ Glb makeSeam() {
     const glm::vec3 top(0, 0.85f, 0);
     add(
         96, 8, [&](float u, float v) { return v == 0 ? top : glm::mix(top, drum(u == 1 ? 0 : u, top.y), v); },
-        [](const glm::vec2& w) { return chartUv(charts[8], {0.5f, w.y}); });
+        [](const glm::vec2& w) {
+            return chartUv(charts[8], {0.5f, w.y});
+        });
     computeNormals(mesh, 40);
     Model model{"seam", {}};
     model.add(glb.addMaterial(worn), mesh);

@@ -13,7 +13,7 @@ namespace {
 
 /// Metres that a pixel spans at the grid's middle.
 constexpr float pixel = 0.00422f;
-constexpr int wires = 22;   ///< each way
+constexpr int wires = 22;     ///< each way
 constexpr float half = 0.9f;  ///< of the grid, metres
 
 Mesh grid() {

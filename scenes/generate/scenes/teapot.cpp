@@ -147,10 +147,11 @@ void addLimbs(Glb& glb, Model& model) {
     const auto textures = paint({.width = 1024, .height = 1024, .metres = tile}, [&](const glm::vec2& p) {
         // The noise of the glaze runs on a cylinder in both directions, so that the tile repeats.
         const glm::vec2 a = p / tile * tau;
-        return glaze({0.9f * scales(8 * p.x / tile.x, 8 * p.y / tile.y), 0}, 0.12f * glm::vec3(std::sin(a.x) + 3, std::cos(a.x) * std::sin(a.y), std::cos(a.y)), 0.004f);
+        return glaze({0.9f * scales(8 * p.x / tile.x, 8 * p.y / tile.y), 0}, 0.12f * glm::vec3(std::sin(a.x) + 3, std::cos(a.x) * std::sin(a.y), std::cos(a.y)),
+                     0.004f);
     });
     const int material = glb.addMaterial(glb.dressed({.name = "limbs"}, textures));
-    const Station spout[] = {{{0.40f, 0.26f, 0}, 0.135f}, {{0.60f, 0.31f, 0}, 0.112f}, {{0.74f, 0.46f, 0}, 0.080f},
+    const Station spout[] = {{{0.40f, 0.26f, 0}, 0.135f}, {{0.60f, 0.31f, 0}, 0.112f},  {{0.74f, 0.46f, 0}, 0.080f},
                              {{0.81f, 0.62f, 0}, 0.060f}, {{0.89f, 0.735f, 0}, 0.052f}, {{0.95f, 0.79f, 0}, 0.054f}};
     const Station handle[] = {{{-0.38f, 0.655f, 0}, 0.040f}, {{-0.58f, 0.735f, 0}, 0.046f}, {{-0.78f, 0.67f, 0}, 0.047f}, {{-0.845f, 0.50f, 0}, 0.046f},
                               {{-0.76f, 0.32f, 0}, 0.044f},  {{-0.62f, 0.235f, 0}, 0.042f}, {{-0.46f, 0.23f, 0}, 0.040f}};
@@ -166,11 +167,11 @@ void addLimbs(Glb& glb, Model& model) {
 Glb makeTeapot() {
     Glb glb;
     Model model{"teapot", {}};
-    const glm::vec2 body[] = {{0.335f, 0.770f}, {0.365f, 0.785f}, {0.385f, 0.765f}, {0.40f, 0.735f}, {0.47f, 0.64f}, {0.535f, 0.52f}, {0.56f, 0.39f},
-                              {0.535f, 0.26f},  {0.465f, 0.145f}, {0.375f, 0.075f}, {0.355f, 0.045f}, {0.375f, 0.015f}, {0.36f, 0.0f}, {0.0f, 0.0f}};
+    const glm::vec2 body[] = {{0.335f, 0.770f}, {0.365f, 0.785f}, {0.385f, 0.765f}, {0.40f, 0.735f},  {0.47f, 0.64f},   {0.535f, 0.52f}, {0.56f, 0.39f},
+                              {0.535f, 0.26f},  {0.465f, 0.145f}, {0.375f, 0.075f}, {0.355f, 0.045f}, {0.375f, 0.015f}, {0.36f, 0.0f},   {0.0f, 0.0f}};
     addTurned(glb, model, "body", body, 256, bodyOrnament);
-    const glm::vec2 lid[] = {{0, 1.04f},       {0.045f, 1.03f}, {0.075f, 0.985f}, {0.065f, 0.93f}, {0.035f, 0.90f}, {0.06f, 0.88f},
-                             {0.18f, 0.865f}, {0.28f, 0.83f}, {0.335f, 0.79f}, {0.34f, 0.765f},  {0.30f, 0.755f}, {0, 0.755f}};
+    const glm::vec2 lid[] = {{0, 1.04f},      {0.045f, 1.03f}, {0.075f, 0.985f}, {0.065f, 0.93f}, {0.035f, 0.90f}, {0.06f, 0.88f},
+                             {0.18f, 0.865f}, {0.28f, 0.83f},  {0.335f, 0.79f},  {0.34f, 0.765f}, {0.30f, 0.755f}, {0, 0.755f}};
     addTurned(glb, model, "lid", lid, 192, lidOrnament);
     addLimbs(glb, model);
     glb.addNode(model);
