@@ -416,6 +416,35 @@ TEST_F(ImpostorAtlas, TheNearestOfManyIsShown) {
     }
 }
 
+// Each pixel is asked along its own ray, wherever that crosses pixel and lens: the one of visibility.
+TEST_F(ImpostorAtlas, RaysAreThoseOfVisibility) {
+    writeSphere(folder.path / "ball.gltf", 96, 48);
+    const Path file = scene("ball", {{"position", {0, 0, 12}}, {"target", {0, 0, 0}}, {"fovy", 18}, {"aperture", 1}, {"focus", 6}});
+    Frames frames(file, {64, 64}, graph({{"across", 12}, {"resolution", 128}}, "impostor_octahedral", {{"parallax", "relief"}, {"steps", 64}}), ports());
+    for (const char* pass : {"draw", "hits"}) {
+        frames.set(pass + std::string(".film"), Json("random"));
+        frames.set(pass + std::string(".lens"), Json(true));
+    }
+    std::vector<std::vector<bool>> drawn, traced;
+    for (int frame = 0; frame < 2; ++frame) {
+        frames.run();
+        drawn.emplace_back();
+        traced.emplace_back();
+        for (const Seen& s : seenIn(frames)) drawn.back().push_back(s.instance != nothing);
+        for (const PrimaryHit& h : frames.records<PrimaryHit>("hits.hits")) traced.back().push_back(h.primitive != nothing);
+    }
+    const auto differences = [&](const std::vector<bool>& a, const std::vector<bool>& b) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+        return count;
+    };
+    const std::size_t same = differences(drawn[0], traced[0]) + differences(drawn[1], traced[1]),
+                      other = differences(drawn[0], traced[1]) + differences(drawn[1], traced[0]);
+    std::printf("pixels that differ: %zu by the same rays, %zu by others\n", same, other);
+    EXPECT_GT(other, 500u);
+    EXPECT_LT(same, other / 20);
+}
+
 TEST_F(ImpostorAtlas, WhatDoesNotFitIsSaid) {
     writeModel(folder.path, "cube", colouredCube());
     const Path file = scene("cube", lookAlong({7, 0, 0}, {0, 0, 0}, 4));
