@@ -27,7 +27,7 @@ void chooseInstance(uint instance) {
     AtlasInstance chosen = AtlasInstance(0u, 0u, 0u, 0u);
     vec4 bounds;
     if (object.radius > 0.0 && volume > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u &&
-        sphereOnFilm(w, center, object.radius * mostScale(placement), params.lens, bounds)) {
+        sphereOnFilm(w, center, object.radius * mostScale(placement), bounds)) {
         vec4 size = vec2(frameSize()).xyxy, pixels = clamp(bounds * size, vec4(-1.0), size + 1.0);
         ivec2 low = max(ivec2(floor(pixels.xy)), ivec2(0)), high = min(ivec2(floor(pixels.zw)), ivec2(frameSize()) - 1);
         if (all(lessThanEqual(low, high))) {

@@ -58,24 +58,40 @@ bool seeFrom(World w, Atlases made, uint instance, uint level, ivec2 pixel, out 
     return depth > 0.0;
 }
 
-/// Walks through the blocks of the frame; the nearest instance of each pixel stays.
+// Radii from the centre that nothing lies beyond that an atlas shows: the corner of a window and of the heights over it lies nearer.
+const float FARTHEST_SHOWN = 2.0;
+
+/// What an instance shows is at least so deep. Negative where it may be anywhere.
+float leastDepth(World w, Atlases made, uint instance) {
+    AtlasRecord object = made.objects.at[w.instances.at[instance].mesh];
+    Placement placement = placementOf(w, instance);
+    vec3 center = placePoint(placement, object.center);
+    return dot(center - w.camera.position, w.camera.forward) - FARTHEST_SHOWN * object.radius * mostScale(placement);
+}
+
+/// The nearest instance of each pixel stays. 64 lanes each walk through a share of the frame's blocks, one block after the other: looking up whose a block
+/// is costs more than most blocks do.
 void scatterBlocks(uint lane, uint lanes) {
     World w = world();
     Atlases made = atlases();
     WideKeys keys = WideKeys(passBlock().keys.address);
-    uint inner = lane % BLOCK_PIXELS;
-    for (uint block = lane / BLOCK_PIXELS; block < total(0u); block += lanes / BLOCK_PIXELS) {
-        uint instance = instanceOfBlock(block);
-        AtlasInstance d = drawn(instance);
+    uint inner = lane % BLOCK_PIXELS, walks = lanes / BLOCK_PIXELS, share = (total(0u) + walks - 1u) / walks;
+    uint begin = lane / BLOCK_PIXELS * share, end = min(begin + share, total(0u));
+    if (begin >= end) return;
+    uint instance = instanceOfBlock(begin);
+    AtlasInstance d = drawn(instance);
+    for (uint block = begin; block < end; ++block) {
+        while (block >= d.first + d.count) d = drawn(++instance);
         uint across = d.shape & 0xffffu, within = block - d.first;
         uvec2 place = uvec2(d.corner & 0xffffu, d.corner >> 16) + uvec2(within % across, within / across);
         ivec2 pixel = ivec2(BLOCK * place + uvec2(inner % BLOCK, inner / BLOCK));
         if (any(greaterThanEqual(uvec2(pixel), frameSize()))) continue;
+        uint i = pixelIndex(pixel);
         SeenAtlas seen;
-        float depth;
+        float depth = leastDepth(w, made, instance);
+        if (depth > 0.0 && floatBitsToUint(depth) > uint(keys.at[i] >> 32)) continue;  // hidden, whatever it shows
         if (!seeFrom(w, made, instance, d.shape >> 16, pixel, seen, depth)) continue;
         uint64_t key = packUint2x32(uvec2(instance, floatBitsToUint(depth)));
-        uint i = pixelIndex(pixel);
         if (key < keys.at[i]) atomicMin(keys.at[i], key);
     }
 }

@@ -10,8 +10,8 @@ vec2 tangentSlopes(float x, float z, float radius) {
 }
 
 /// xy: least, zw: greatest film point of a pixel that may show the sphere; the film is [0,1]^2, y down, and isn't clipped to. False where the sphere is
-/// behind the camera. `lens`: rays may start anywhere on it.
-bool sphereOnFilm(World w, vec3 center, float radius, bool lens, out vec4 bounds) {
+/// behind the camera. Rays may start anywhere on the lens.
+bool sphereOnFilm(World w, vec3 center, float radius, out vec4 bounds) {
     vec3 d = center - w.camera.position;
     float z = dot(d, w.camera.forward);
     vec2 extents = vec2(length(w.camera.right), length(w.camera.up)), at = vec2(dot(d, w.camera.right), dot(d, w.camera.up)) / extents;
@@ -22,7 +22,7 @@ bool sphereOnFilm(World w, vec3 center, float radius, bool lens, out vec4 bounds
         slopes = vec4(at.x - radius, at.x + radius, at.y - radius, at.y + radius);
     } else {
         // A ray through the lens is at most so far from the one through its centre as that far from the plane of focus.
-        if (lens && w.camera.aperture > 0.0) radius += w.camera.aperture * (1.0 + (max(z, 0.0) + radius) / w.camera.focus);
+        radius += w.camera.aperture * (1.0 + (max(z, 0.0) + radius) / w.camera.focus);
         if (z <= 1.001 * radius) return true;
         slopes = vec4(tangentSlopes(at.x, z, radius), tangentSlopes(at.y, z, radius));
     }

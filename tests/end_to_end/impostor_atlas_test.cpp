@@ -36,8 +36,16 @@ Point fromOctahedral(glm::dvec2 p) {
 
 Seen seenOf(const BakedSurface& s) {
     const glm::dvec2 normal(double(std::int16_t(s.normal & 0xffff)) / 32767, double(std::int16_t(s.normal >> 16)) / 32767);
-    const glm::vec2 rg = glm::unpackHalf2x16(s.color.x), br = glm::unpackHalf2x16(s.color.y), er = glm::unpackHalf2x16(s.more.x), em = glm::unpackHalf2x16(s.more.y);
-    return {s.instance, s.depth, s.alpha, br.y, em.y, fromOctahedral(normal), Point(rg.x, rg.y, br.x), Point(er.x, er.y, em.x)};
+    const glm::vec2 color = glm::unpackHalf2x16(s.color.x), colorAndRoughness = glm::unpackHalf2x16(s.color.y);
+    const glm::vec2 emission = glm::unpackHalf2x16(s.more.x), emissionAndMetallic = glm::unpackHalf2x16(s.more.y);
+    return {.instance = s.instance,
+            .depth = s.depth,
+            .alpha = s.alpha,
+            .roughness = colorAndRoughness.y,
+            .metallic = emissionAndMetallic.y,
+            .normal = fromOctahedral(normal),
+            .color = Point(color, colorAndRoughness.x),
+            .emission = Point(emission, emissionAndMetallic.x)};
 }
 
 /// Where view (x, y) of a grid looks from, by the map's sentences: the sphere unfolded from above, or its upper half turned by 45 degrees.
@@ -96,10 +104,10 @@ class ImpostorAtlas : public testing::Test {
 protected:
     Path scene(const std::string& model, const OrderedJson& camera) {
         const Path file = folder.path / (model + ".json");
-        writeFile(file, OrderedJson{{"format", 1},
-                                    {"models", {{model, {{"file", model + ".gltf"}}}}},
-                                    {"environment", constantEnvironment(Point(1))},
-                                    {"camera", camera}}.dump());
+        writeFile(
+            file,
+            OrderedJson{{"format", 1}, {"models", {{model, {{"file", model + ".gltf"}}}}}, {"environment", constantEnvironment(Point(1))}, {"camera", camera}}
+                .dump());
         return file;
     }
     /// `draw`: the type that draws, and what is set of it.
@@ -137,7 +145,8 @@ std::vector<Quad> bench() {
                                     std::pair(Point(0.2, -0.2, -0.2), Point(0.9, 0.3, 0.5))}) {
         for (Quad& q : box(low, high, {})) {
             const double n = number++ / 18.0;
-            q.paint = {.color = {0.2 + 0.7 * n, 0.9 - 0.8 * n, 0.5}, .emission = number % 3 == 0 ? Point(3, 2, 1) * n : Point(0), .metallic = n, .roughness = 1 - n};
+            q.paint = {.color = {0.2 + 0.7 * n, 0.9 - 0.8 * n, 0.5}, .metallic = n, .roughness = 1 - n};
+            if (number % 3 == 0) q.paint.emission = Point(3, 2, 1) * n;
             quads.push_back(q);
         }
     }
@@ -160,8 +169,9 @@ TEST_F(ImpostorAtlas, ViewsShowWhatTheySaw) {
                 const Point middle(placement * glm::dvec4(0, 0.1, 0, 1)), d(placement * glm::dvec4(gridDirection(hemi, across, view), 0));
                 const double radius = glm::length(Point(1, 0.7, 0.5)), height = 2 * radius * 64 / 62;
                 const Path file = scene("bench", lookAlong(middle + 10.0 * d, middle, height));
-                Frames frames(file, {size, size}, graph({{"arrangement", hemi ? "hemi" : "full"}, {"across", across}, {"resolution", 64}},
-                                                        "impostor_octahedral", {{"bias", -4}}), ports());
+                Frames frames(file, {size, size},
+                              graph({{"arrangement", hemi ? "hemi" : "full"}, {"across", across}, {"resolution", 64}}, "impostor_octahedral", {{"bias", -4}}),
+                              ports());
                 for (const char* parallax : {"off", "step", "relief"}) {
                     frames.set("draw.parallax", Json(parallax));
                     frames.run();
@@ -183,10 +193,10 @@ TEST_F(ImpostorAtlas, ViewsShowWhatTheySaw) {
                             if (isShown != (s.instance != nothing)) ++wrong;
                             if (!isShown || s.instance == nothing) continue;
                             ++inner;
-                            const Point n(normal.at(x, y, 0), normal.at(x, y, 1), normal.at(x, y, 2)), c(albedo.at(x, y, 0), albedo.at(x, y, 1), albedo.at(x, y, 2));
+                            const auto at = [&](const ImageData& image) { return Point(image.at(x, y, 0), image.at(x, y, 1), image.at(x, y, 2)); };
                             worstDepth = std::max(worstDepth, std::abs(s.depth - depth.at(x, y, 0)));
-                            worstNormal = std::max(worstNormal, glm::distance(s.normal, n));
-                            worstColor = std::max(worstColor, glm::distance(s.color, c));
+                            worstNormal = std::max(worstNormal, glm::distance(s.normal, at(normal)));
+                            worstColor = std::max(worstColor, glm::distance(s.color, at(albedo)));
                         }
                     }
                     std::printf("%s (%d, %d) %s: %zu inner pixels, %zu wrongly covered; off by depth %.1e, normal %.1e, colour %.1e\n", hemi ? "hemi" : "full",
@@ -203,7 +213,8 @@ TEST_F(ImpostorAtlas, ViewsShowWhatTheySaw) {
 }
 
 /// A cube with a colour for each side: -x, +x, -y, +y, -z, +z.
-constexpr std::array<Point, 6> sides{Point(0.8, 0.1, 0.1), Point(0.1, 0.8, 0.1), Point(0.1, 0.1, 0.8), Point(0.8, 0.8, 0.1), Point(0.1, 0.8, 0.8), Point(0.8, 0.1, 0.8)};
+constexpr std::array<Point, 6> sides{Point(0.8, 0.1, 0.1), Point(0.1, 0.8, 0.1), Point(0.1, 0.1, 0.8),
+                                     Point(0.8, 0.8, 0.1), Point(0.1, 0.8, 0.8), Point(0.8, 0.1, 0.8)};
 
 std::vector<Quad> colouredCube() {
     std::vector<Quad> quads = box(Point(-1), Point(1), {});
@@ -231,9 +242,10 @@ TEST_F(ImpostorAtlas, NoViewBleedsIntoAnother) {
     for (const OrderedJson& camera : {lookAlong({7, 0, 0}, {0, 0, 0}, 4), eye}) {
         for (const int bias : {-4, 0, 2}) {
             // Of 3 x 3 views, those in the middle of the map's sides look along the axes; a card of three looks along x, and the others stand edge-on.
-            Frames grid(scene("cube", camera), {64, 64}, graph({{"across", 3}, {"resolution", 32}}, "impostor_octahedral", {{"parallax", "off"}, {"bias", bias}}),
-                        ports());
-            Frames cards(scene("cube", camera), {64, 64}, graph({{"arrangement", "cross"}, {"resolution", 32}}, "impostor_billboard", {{"bias", bias}}), ports());
+            const Path file = scene("cube", camera);
+            const OrderedJson plain = {{"parallax", "off"}, {"bias", bias}};
+            Frames grid(file, {64, 64}, graph({{"across", 3}, {"resolution", 32}}, "impostor_octahedral", plain), ports());
+            Frames cards(file, {64, 64}, graph({{"arrangement", "cross"}, {"resolution", 32}}, "impostor_billboard", {{"bias", bias}}), ports());
             for (Frames* frames : {&grid, &cards}) {
                 frames->run();
                 const std::array<std::size_t, 6> counts = sidesIn(*frames);
@@ -242,7 +254,8 @@ TEST_F(ImpostorAtlas, NoViewBleedsIntoAnother) {
             }
         }
     }
-    Frames between(scene("cube", lookAlong({5, 0, 5}, {0, 0, 0}, 4)), {64, 64}, graph({{"arrangement", "cross"}, {"resolution", 32}}, "impostor_billboard"), ports());
+    const Path file = scene("cube", lookAlong({5, 0, 5}, {0, 0, 0}, 4));
+    Frames between(file, {64, 64}, graph({{"arrangement", "cross"}, {"resolution", 32}}, "impostor_billboard"), ports());
     between.run();
     const std::array<std::size_t, 6> counts = sidesIn(between);
     EXPECT_GT(counts[1], 200u);
@@ -271,15 +284,18 @@ double cardCoverage(const std::vector<Point>& normals, const Point& view) {
 TEST_F(ImpostorAtlas, CardsCoverWhatTheyCan) {
     writeSphere(folder.path / "ball.gltf", 96, 48);
     const double third = std::numbers::pi / 3;
-    const std::vector<Point> cross{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, star{{0, 0, 1}, {std::sin(third), 0, std::cos(third)}, {std::sin(2 * third), 0, std::cos(2 * third)}, {0, 1, 0}};
+    const auto upright = [&](double turn) { return Point(std::sin(turn), 0, std::cos(turn)); };
+    const std::vector<Point> cross{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, star{upright(0), upright(third), upright(2 * third), {0, 1, 0}};
     for (const auto& [name, normals] : {std::pair("cross", cross), std::pair("star", star)}) {
         for (const Point& direction : {Point(1, 0, 0), Point(1, 0, 1), Point(1, 1, 1), Point(0.5, 0, std::sqrt(0.75)), Point(0.2, 0.9, 0.3)}) {
             const Point view = glm::normalize(direction);
-            Frames frames(scene("ball", lookAlong(10.0 * view, Point(0), 2.4)), {192, 192}, graph({{"arrangement", name}, {"resolution", 256}}, "impostor_billboard"), ports());
+            const Path file = scene("ball", lookAlong(10.0 * view, Point(0), 2.4));
+            Frames frames(file, {192, 192}, graph({{"arrangement", name}, {"resolution", 256}}, "impostor_billboard"), ports());
             frames.run();
             const glm::dvec2 shown = shownIn(frames);
             const double expected = cardCoverage(normals, view);
-            std::printf("%s from (%.1f, %.1f, %.1f): %.3f of the ball covered, %.3f expected\n", name, direction.x, direction.y, direction.z, shown.x / shown.y, expected);
+            std::printf("%s from (%.1f, %.1f, %.1f): %.3f of the ball covered, %.3f expected\n", name, direction.x, direction.y, direction.z, shown.x / shown.y,
+                        expected);
             EXPECT_NEAR(shown.x / shown.y, expected, 0.015);
         }
     }
@@ -352,15 +368,19 @@ TEST_F(ImpostorAtlas, ThinThingsDontVanishInTheDistance) {
 TEST_F(ImpostorAtlas, TheNearestOfManyIsShown) {
     writeSphere(folder.path / "balls.gltf", 16, 8);
     std::vector<glm::dmat4> placements;
-    for (int z = 0; z < 100; ++z)
-        for (int x = 0; x < 100; ++x)
-            placements.push_back(glm::scale(glm::translate(glm::dmat4(1), Point(x - 49.5, 0.3 * std::sin(1.0 * x) * std::cos(0.7 * z), -z)), Point(0.4 + 0.1 * ((x + z) % 2))));
+    for (int z = 0; z < 100; ++z) {
+        for (int x = 0; x < 100; ++x) {
+            const Point at(x - 49.5, 0.3 * std::sin(1.0 * x) * std::cos(0.7 * z), -z);
+            placements.push_back(glm::scale(glm::translate(glm::dmat4(1), at), Point(0.4 + 0.1 * ((x + z) % 2))));
+        }
+    }
     placeModel(folder.path / "balls.gltf", placements);
     const Path file = scene("balls", {{"position", {0, 6, 10}}, {"target", {0, 0, -12}}, {"fovy", 50}});
-    for (const char* type : {"impostor_octahedral", "impostor_billboard"}) {
-        const bool isGrid = type == std::string("impostor_octahedral");
-        Frames frames(file, {240, 136}, graph(isGrid ? OrderedJson{{"across", 12}, {"resolution", 64}} : OrderedJson{{"arrangement", "cross"}, {"resolution", 64}}, type,
-                                              isGrid ? OrderedJson{{"parallax", "relief"}, {"steps", 32}} : OrderedJson::object()), ports());
+    for (const bool isGrid : {true, false}) {
+        Frames frames(file, {240, 136},
+                      isGrid ? graph({{"across", 12}, {"resolution", 64}}, "impostor_octahedral", {{"parallax", "relief"}})
+                             : graph({{"arrangement", "cross"}, {"resolution", 64}}, "impostor_billboard"),
+                      ports());
         frames.run();
         const std::vector<BakedSurface> first = frames.records<BakedSurface>("draw.surfaces");
         const std::vector<PrimaryHit> hits = frames.records<PrimaryHit>("hits.hits");
@@ -378,8 +398,8 @@ TEST_F(ImpostorAtlas, TheNearestOfManyIsShown) {
             instances.insert(first[i].instance);
             offDepth += std::abs(double(first[i].depth) - depth.values[i]);
         }
-        std::printf("%s: %zu instances shown, %zu pixels of %zu, %zu of the same instance; depth off by %.1e in the mean\n", type, instances.size(), shown, geometry,
-                    same, offDepth / double(same));
+        std::printf("%s: %zu instances shown, %zu pixels of %zu, %zu of the same instance; depth off by %.1e in the mean\n", isGrid ? "octahedral" : "cards",
+                    instances.size(), shown, geometry, same, offDepth / double(same));
         EXPECT_GT(instances.size(), 1500u);
         EXPECT_GT(double(same), (isGrid ? 0.9 : 0.7) * double(both));
         if (isGrid) {
@@ -396,9 +416,39 @@ TEST_F(ImpostorAtlas, TheNearestOfManyIsShown) {
     }
 }
 
+// Each pixel is asked along its own ray, wherever that crosses pixel and lens: the one of visibility.
+TEST_F(ImpostorAtlas, RaysAreThoseOfVisibility) {
+    writeSphere(folder.path / "ball.gltf", 96, 48);
+    const Path file = scene("ball", {{"position", {0, 0, 12}}, {"target", {0, 0, 0}}, {"fovy", 18}, {"aperture", 1}, {"focus", 6}});
+    Frames frames(file, {64, 64}, graph({{"across", 12}, {"resolution", 128}}, "impostor_octahedral", {{"parallax", "relief"}, {"steps", 64}}), ports());
+    for (const char* pass : {"draw", "hits"}) {
+        frames.set(pass + std::string(".film"), Json("random"));
+        frames.set(pass + std::string(".lens"), Json(true));
+    }
+    std::vector<std::vector<bool>> drawn, traced;
+    for (int frame = 0; frame < 2; ++frame) {
+        frames.run();
+        drawn.emplace_back();
+        traced.emplace_back();
+        for (const Seen& s : seenIn(frames)) drawn.back().push_back(s.instance != nothing);
+        for (const PrimaryHit& h : frames.records<PrimaryHit>("hits.hits")) traced.back().push_back(h.primitive != nothing);
+    }
+    const auto differences = [&](const std::vector<bool>& a, const std::vector<bool>& b) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) count += a[i] != b[i];
+        return count;
+    };
+    const std::size_t same = differences(drawn[0], traced[0]) + differences(drawn[1], traced[1]),
+                      other = differences(drawn[0], traced[1]) + differences(drawn[1], traced[0]);
+    std::printf("pixels that differ: %zu by the same rays, %zu by others\n", same, other);
+    EXPECT_GT(other, 500u);
+    EXPECT_LT(same, other / 20);
+}
+
 TEST_F(ImpostorAtlas, WhatDoesNotFitIsSaid) {
     writeModel(folder.path, "cube", colouredCube());
     const Path file = scene("cube", lookAlong({7, 0, 0}, {0, 0, 0}, 4));
+    const std::string grid = "impostor_octahedral", cards = "impostor_billboard";
     const auto message = [&](const OrderedJson& atlas, const std::string& draw, const OrderedJson& set = OrderedJson::object()) {
         try {
             Frames frames(file, {16, 16}, graph(atlas, draw, set), ports());
@@ -408,13 +458,13 @@ TEST_F(ImpostorAtlas, WhatDoesNotFitIsSaid) {
         }
         return std::string();
     };
-    EXPECT_NE(message({{"resolution", 100}}, "impostor_octahedral").find("no power of 2; set \"resolution\" to 64"), std::string::npos);
-    EXPECT_NE(message({{"resolution", 1024}, {"across", 64}}, "impostor_octahedral").find("lower \"across\" or \"resolution\""), std::string::npos);
-    EXPECT_NE(message({{"resolution", 16}, {"mesh", "cup"}}, "impostor_octahedral").find("no instance shows a mesh \"cup\" for an impostor_atlas to bake"), std::string::npos);
-    EXPECT_NE(message({{"resolution", 16}, {"arrangement", "star"}}, "impostor_octahedral").find("to full or hemi"), std::string::npos);
-    EXPECT_NE(message({{"resolution", 16}}, "impostor_billboard").find("to cross or star"), std::string::npos);
-    EXPECT_NE(message({{"resolution", 16}, {"attributes", "paper"}}, "impostor_octahedral").find("set its \"parallax\" to off"), std::string::npos);
-    EXPECT_EQ(message({{"resolution", 16}, {"attributes", "paper"}}, "impostor_octahedral", {{"parallax", "off"}}), "");
+    EXPECT_NE(message({{"resolution", 100}}, grid).find("no power of 2; set \"resolution\" to 64"), std::string::npos);
+    EXPECT_NE(message({{"resolution", 1024}, {"across", 64}}, grid).find("lower \"across\" or \"resolution\""), std::string::npos);
+    EXPECT_NE(message({{"resolution", 16}, {"mesh", "cup"}}, grid).find("no instance shows a mesh \"cup\" for an impostor_atlas"), std::string::npos);
+    EXPECT_NE(message({{"resolution", 16}, {"arrangement", "star"}}, grid).find("to full or hemi"), std::string::npos);
+    EXPECT_NE(message({{"resolution", 16}}, cards).find("to cross or star"), std::string::npos);
+    EXPECT_NE(message({{"resolution", 16}, {"attributes", "paper"}}, grid).find("set its \"parallax\" to off"), std::string::npos);
+    EXPECT_EQ(message({{"resolution", 16}, {"attributes", "paper"}}, grid, {{"parallax", "off"}}), "");
 }
 
 }  // namespace
