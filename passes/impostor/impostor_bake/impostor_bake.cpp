@@ -18,7 +18,8 @@ using namespace lodestir;
 enum class Compression { none, bc };
 
 struct ImpostorBake final : Pass {
-    In<World>         pose{this, "pose", "the scene as meshes that deform are baked in it, anew where it has them in another pose; unwired: as in frame 0", Need::optional};
+    In<World>         pose{this, "pose", "the scene as meshes that deform are baked in it, anew where it has them in another pose; unwired: as in frame 0",
+                   Need::optional};
     Out<Impostors>    impostors{this, "impostors", "views of each mesh, with their pyramids"};
     Out<Buffer<uint>> bytes{this, "bytes", "that they take: 64 bits, the low word first", Count::fixed(2)};
     Out<Buffer<uint>> rawBytes{this, "rawBytes", "that they would take if nothing was compressed, likewise", Count::fixed(2)};
@@ -37,8 +38,8 @@ struct ImpostorBake final : Pass {
     ImpostorBake() { cadence = Cadence::onChange; }
 
     void execute(Frame& frame) override {
-        const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene());
         Impostors made = impostorsOf(frame.scene()), raw = made;
+        const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene());
         raw.compressed = 0;
         const TexelMemory memory(made), rawMemory(raw);
         const Memory objects = frame.objects(pose);  // before anything asks for positions
