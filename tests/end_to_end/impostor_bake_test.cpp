@@ -774,5 +774,65 @@ TEST_F(ImpostorBodies, WrongParametersAreNamed) {
     EXPECT_NE(output.err.find("did you mean \"white_knight\""), std::string::npos) << output.err;
 }
 
+class ImpostorCommand : public ProgramTest {};
+
+// What `lodestir lod --impostor` bakes is what graphs find, also in a copy of the model that has levels.
+TEST_F(ImpostorCommand, FillsTheCacheThatGraphsLookInto) {
+    const EnvironmentVariable cache("LODESTIR_CACHE", (folder / "cache").c_str());
+    const std::string model = (sceneFolder() / "cube.glb").string();
+    const auto bake = [&](Arguments more) {
+        more.insert(more.begin(), {"lod", model, "--impostor", "--json", "--mesh", "cube"});
+        const Output output = lodestir(more);
+        EXPECT_EQ(output.exitCode, 0) << commandText(more) << "\n" << output.err;
+        EXPECT_EQ(output.err.find("validation"), std::string::npos) << output.err;
+        return OrderedJson::parse(output.out);
+    };
+    const Arguments small{"--views", "6", "--resolution", "64", "--compression", "bc"};
+    const std::uint64_t finest = 6 * 64 * 64, all = finest + finest / 4 + finest / 16 + finest / 64 + finest / 256;
+    for (const bool again : {false, true}) {
+        const OrderedJson json = bake(small);
+        ASSERT_EQ(json["impostors"].size(), 1u);
+        const OrderedJson& cube = json["impostors"][0];
+        EXPECT_EQ(cube["name"], "cube");
+        EXPECT_EQ(cube["views"], 6);
+        EXPECT_EQ(cube["resolution"], 64);
+        EXPECT_EQ(cube["bytes"], 13 * all - 2 * finest);
+        EXPECT_EQ(cube["rawBytes"], 24 * all);
+        EXPECT_EQ(cube["coverage"], 1.0);
+        EXPECT_EQ(cube["cached"], again);
+    }
+    Frames frames(model, {64, 64}, bakeAndView({{"mesh", "cube"}, {"views", 6}, {"resolution", 64}, {"compression", "bc"}}), {"view.texels"});
+    frames.run();
+    EXPECT_EQ(raysOf(frames), 0u);
+    EXPECT_EQ(keptFiles(folder / "cache").size(), 1u);
+
+    Arguments both = small;
+    both.insert(both.end(), {"--out", (folder / "levels.glb").string(), "--levels", "2"});
+    const OrderedJson json = bake(both);
+    EXPECT_TRUE(json.contains("meshes"));  // none: the model brings its levels
+    EXPECT_EQ(json["impostors"][0]["cached"], true);
+    EXPECT_TRUE(std::filesystem::exists(folder / "levels.glb"));
+    // What the pass declares holds where nothing is said.
+    const OrderedJson plain = bake({});
+    EXPECT_EQ(plain["impostors"][0]["views"], 18);
+    EXPECT_EQ(plain["impostors"][0]["bytes"], plain["impostors"][0]["rawBytes"]);
+    EXPECT_EQ(keptFiles(folder / "cache").size(), 2u);
+}
+
+TEST_F(ImpostorCommand, SaysWhatIsWrong) {
+    const std::string model = (sceneFolder() / "cube.glb").string();
+    const auto refuses = [&](const Arguments& arguments, int exitCode, const std::string& message) {
+        const Output output = lodestir(arguments);
+        EXPECT_EQ(output.exitCode, exitCode) << output.err;
+        EXPECT_NE(output.err.find(message), std::string::npos) << output.err;
+    };
+    refuses({"lod", model}, 2, "--out: is required, unless --impostor is all that is asked for");
+    refuses({"lod", model, "--out", (folder / "x.glb").string(), "--views", "6"}, 2, "--views requires --impostor");
+    refuses({"lod", model, "--impostor", "--mesh", "cubs"}, 1, "cube.glb: no instance shows a mesh \"cubs\"; did you mean \"cube\"?");
+    refuses({"lod", model, "--impostor", "--views", "9"}, 1, "set \"views\" to 6, 12 or 18");
+    refuses({"lod", model, "--impostor", "--views", "24"}, 1, "bake.views");
+    refuses({"lod", model, "--impostor", "--compression", "bc7"}, 1, "bake.compression");
+}
+
 }  // namespace
 }  // namespace lodestir::test
