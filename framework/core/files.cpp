@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <system_error>
@@ -215,5 +216,29 @@ void writeFile(const Path& path, std::span<const std::byte> bytes) {
 }
 
 void writeFile(const Path& path, std::string_view text) { writeFile(path, std::as_bytes(std::span(text))); }
+
+void writeSealed(const Path& path, std::span<const std::byte> bytes) {
+    const Hash content = Hash().add(bytes);
+    std::vector<std::byte> file(sizeof content + bytes.size());
+    std::memcpy(file.data(), &content, sizeof content);
+    std::ranges::copy(bytes, file.begin() + sizeof content);
+    writeFile(path, file);
+}
+
+std::optional<std::vector<std::byte>> readSealed(const Path& path) {
+    if (!isFile(path)) return {};
+    std::vector<std::byte> file;
+    try {
+        file = readBytes(path);
+    } catch (const Error&) {
+        return {};  // unreadable is as good as missing
+    }
+    Hash content;
+    if (file.size() < sizeof content) return {};
+    std::memcpy(&content, file.data(), sizeof content);
+    file.erase(file.begin(), file.begin() + sizeof content);
+    if (content != Hash().add(file)) return {};
+    return file;
+}
 
 }  // namespace lodestir

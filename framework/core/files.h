@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ LODESTIR_API void writeFile(const Path& path, std::span<const std::byte> bytes);
 LODESTIR_API void writeFile(const Path& path, std::string_view text);
 /// The same for libraries that write to a path themselves: `write` gets the aside path (same extension).
 LODESTIR_API void writeAside(const Path& path, const std::function<void(const Path& aside)>& write);
+/// A file that knows whether it is whole: writeFile() of the bytes behind their hash. Reading gives nothing where it is missing, damaged or unreadable.
+LODESTIR_API void writeSealed(const Path& path, std::span<const std::byte> bytes);
+LODESTIR_API std::optional<std::vector<std::byte>> readSealed(const Path& path);
 
 /// 128-bit content hash (two FNV-1a-like/xxhash-like 64-bit lanes are enough: it names cache files, it is no security).
 struct LODESTIR_API Hash {

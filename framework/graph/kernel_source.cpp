@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <iterator>
 
 namespace lodestir {
@@ -26,6 +27,25 @@ bool isDriver(const Path& file) { return file.filename() == "driver.glsl" && fil
 Hash KernelSource::hash() const {
     Hash hash;
     hash.add(std::as_bytes(std::span(spirv.words))).add(std::as_bytes(std::span(constants)));
+    return hash;
+}
+
+std::vector<Path> shadersIn(const Path& folder) {
+    std::vector<Path> shaders;
+    std::error_code absent;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, absent))
+        if (entry.path().extension() == ".comp" && entry.path().stem().extension() != ".test") shaders.push_back(entry.path());
+    std::ranges::sort(shaders);
+    return shaders;
+}
+
+std::vector<Path> shadersOf(const Plugin& plugin) {
+    return *plugin.shader ? shadersIn(shaderOf(plugin, plugin.shader).parent_path()) : std::vector<Path>();
+}
+
+Hash contentOf(const std::vector<Path>& shaders, const std::vector<Path>& includes) {
+    Hash hash;
+    for (const Path& shader : shaders) gpu::IncludeClosure(shader, includes, {}).addTo(hash);
     return hash;
 }
 

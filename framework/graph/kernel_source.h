@@ -28,6 +28,13 @@ struct KernelSource {
 KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader,
                           const RunnerOptions& options);
 
+/// The shaders of a folder, in order of their names; tests are none.
+std::vector<Path> shadersIn(const Path& folder);
+/// Those in the folder of a pass's own one. Which of them it dispatches, only its execute() knows.
+std::vector<Path> shadersOf(const Plugin& plugin);
+/// Of shaders as their files are now, and of all that these include.
+Hash contentOf(const std::vector<Path>& shaders, const std::vector<Path>& includes);
+
 /// Persistent workgroups: a few that fetch tiles from a counter, because a CPU driver spreads workgroups over its threads beforehand.
 inline bool usesPersistentGroups(const gpu::Device& device) { return device.facts().type == "cpu"; }
 

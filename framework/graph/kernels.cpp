@@ -6,29 +6,10 @@
 #include <framework/graph/compile_ahead.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <set>
 
 namespace lodestir {
-namespace {
-
-/// The shaders beside a pass's own one. Which of them it dispatches, only its execute() knows.
-std::vector<std::string> shadersOf(const GraphNode& node) {
-    std::vector<std::string> names;
-    if (node.pass->shader.empty()) return names;
-    std::error_code none;
-    const Path folder = shaderOf(*node.plugin, node.pass->shader).parent_path();
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-        const std::string name = entry.path().filename().string();
-        if (name.ends_with(".comp") && !name.ends_with(".test.comp")) names.push_back(name);
-    }
-    std::ranges::sort(names);
-    return names;
-}
-
-}  // namespace
-
 const Kernel& Kernels::of(int node, std::string_view shader) {
     const Key key{node, shader};
     const auto found = kernels_.find(key);
@@ -61,8 +42,8 @@ std::vector<Path> Kernels::files() const {
 void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(std::size_t, std::size_t)>& progress) {
     std::vector<Key> keys;
     for (const int node : nodes)
-        for (const std::string& shader : shadersOf(graph_.nodes[std::size_t(node)]))
-            if (!kernels_.contains(Key{node, shader})) keys.emplace_back(node, shader);
+        for (const Path& shader : shadersOf(*graph_.nodes[std::size_t(node)].plugin))
+            if (const Key key{node, shader.filename()}; !kernels_.contains(key)) keys.push_back(key);
     std::vector<std::optional<KernelSource>> read(keys.size());
     parallelFor(keys.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

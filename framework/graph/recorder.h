@@ -73,8 +73,15 @@ public:
     }
     using Frame::upload;
     Memory upload(std::span<const std::byte> bytes, const std::string& name) override {
-        const auto buffer = std::make_shared<const gpu::Buffer>(gpu::makeBuffer(s_.device_, bytes, name));
-        return {buffer->address(), buffer};
+        return handedOut(std::make_shared<const gpu::Buffer>(gpu::makeBuffer(s_.device_, bytes, name)));
+    }
+    Memory allocate(std::size_t bytes, const std::string& name) override { return handedOut(newBuffer(bytes, name)); }
+    KeptMemory kept(const Hash& key, std::size_t bytes, const std::string& name) override {
+        const Path path = s_.keptFile(std::size_t(node_), key, bytes);
+        if (const auto content = readSealed(path); content && content->size() == bytes) return {upload(*content, name), true};
+        const auto buffer = newBuffer(bytes, name);
+        work_.kept.push_back({path, buffer, bytes});
+        return {handedOut(buffer), false};
     }
     std::span<const std::byte> bytesOf(const Port& port) const override {
         const auto& source = s_.graph_.nodes[std::size_t(node_)].inputs[std::size_t(numberOf(port))];
@@ -103,8 +110,10 @@ public:
         const FrameWorld made = s_.world().at(at, s_.size_);
         provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep);
     }
-    Memory objects() override {
-        FrameWorld made = s_.world().objects();
+    Memory objects(const In<World>& posed) override {
+        std::optional<World> pose;
+        if (isBound(posed)) pose = valueOf(posed);
+        FrameWorld made = s_.world().objects(pose ? &*pose : nullptr);
         const auto buffer = std::make_shared<const gpu::Buffer>(s_.device_, sizeof(World), gpu::Memory::upload, "objects");
         auto keep = std::make_shared<std::vector<std::shared_ptr<const void>>>();
         if (s_.topLevels_ && made.value.instanceCount > 0) keep->push_back(s_.topLevels_->add(made.value, buffer->address()));
@@ -134,6 +143,13 @@ private:
         const std::uint32_t from = s_.slices_.cuts() ? s_.commands_.timestamp() : 0;
         s_.commands_.dispatch(kernel.pipeline, std::as_bytes(std::span(&push, 1)), groups.x, groups.y);
         if (s_.slices_.cuts()) work_.pieces.push_back({key, rows, from, s_.commands_.timestamp()});
+    }
+    std::shared_ptr<const gpu::Buffer> newBuffer(std::size_t bytes, const std::string& name) const {
+        return std::make_shared<const gpu::Buffer>(s_.device_, bytes, gpu::Memory::device, name);
+    }
+    Memory handedOut(const std::shared_ptr<const gpu::Buffer>& buffer) {
+        work_.handedOut.push_back(buffer);
+        return {buffer->address(), buffer};
     }
     int numberOf(const Port& port) const {
         const auto& ports = s_.graph_.nodes[std::size_t(node_)].pass->ports;

@@ -2,6 +2,7 @@
 #include <framework/graph/runner.h>
 
 #include <framework/core/files.h>
+#include <framework/core/log.h>
 #include <framework/graph/recorder.h>
 
 #include <algorithm>
@@ -162,6 +163,7 @@ FrameReport Runner::State::run() {
         std::memcpy(&pass.rays, facts_.mapped() + std::size_t(plan_.steps[i].node) * sizeof(RayCounts), sizeof(RayCounts));
     }
     if (options_.checkBounds) checkFaults();
+    keep(work);
     historyValid_ = true;
     ++frame_;
     return std::move(work.report);
@@ -223,6 +225,25 @@ void Runner::State::checkFaults() const {
                                   std::to_string(fault.index.y) + ")");
     }
     problems.raise();
+}
+
+Path Runner::State::keptFile(std::size_t node, const Hash& key, std::size_t bytes) const {
+    const Plugin& plugin = *graph_.nodes[node].plugin;
+    Hash hash = contentOf(shadersOf(plugin), includeFolders(plugin));
+    hash.addValue(key).addValue(bytes).add(device_.facts().name).add(device_.facts().driverVersion).add(nameOf(options_.rays));
+    return cacheFolder(graph_.nodes[node].type) / (hash.hex() + ".bin");
+}
+
+void Runner::State::keep(const Work& work) const {
+    for (const Work::Kept& kept : work.kept) {
+        std::vector<std::byte> bytes(kept.bytes);
+        gpu::readBuffer(device_, *kept.memory, 0, bytes);
+        try {
+            writeSealed(kept.file, bytes);
+        } catch (const Error& error) {
+            log::warn("the cache can't be written: {}", error.what());  // slower next time, no worse
+        }
+    }
 }
 
 Runner::Runner(const gpu::Device& device, Graph& graph, const Scene& scene, RunnerOptions options)

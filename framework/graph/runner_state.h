@@ -79,8 +79,15 @@ private:
             Slices::Key key;
             std::uint32_t rows, from, to;
         };
+        struct Kept {
+            Path file;
+            std::shared_ptr<const gpu::Buffer> memory;
+            std::size_t bytes;
+        };
         FrameReport report;
         std::vector<gpu::Buffer> staging;
+        std::vector<std::shared_ptr<const gpu::Buffer>> handedOut;
+        std::vector<Kept> kept;  ///< to be written to the cache when the frame is done
         std::uint32_t dispatches = 0;
         std::vector<Step> steps;
         std::vector<Piece> pieces;
@@ -96,6 +103,8 @@ private:
     void fillBlock(std::size_t node);
     std::vector<std::uint64_t> inputVersions(std::size_t node) const;
     void checkFaults() const;
+    Path keptFile(std::size_t node, const Hash& key, std::size_t bytes) const;  ///< of Frame::kept()
+    void keep(const Work& work) const;
 };
 
 }  // namespace lodestir

@@ -32,16 +32,24 @@ namespace lodestir {
 /// Passes that choose levels take a World and make one.
 template <> inline constexpr bool isChained<World> = true;
 
-struct Scene;         // framework/pass/scene.h
+struct Hash;          // framework/pass/scene.h
+struct Scene;         // the same
 struct SceneRecords;  // the same
 
 /// When a pass runs: every frame, or only when an input's content or a parameter changed (its time then counts as set-up).
 enum class Cadence : std::uint8_t { everyFrame, onChange };
 
-/// Memory on the device that a pass made: what handle outputs point to. It lives as long as a copy of `keep`.
+/// Memory on the device that a pass made: what handle outputs point to. It lives as long as a copy of `keep`, and until the frame is
+/// done in which it was made.
 struct Memory {
     std::uint64_t address = 0;  ///< what LODESTIR_ARRAY_OF members of shared structs hold
     std::shared_ptr<const void> keep;
+};
+
+/// Memory whose content outlives the program.
+struct KeptMemory {
+    Memory memory;
+    bool isFilled = false;  ///< with what an earlier run left; else this execute() has to fill it
 };
 
 /// What a pass can do while it executes.
@@ -77,13 +85,19 @@ public:
     /// New memory that holds `bytes`. `name` shows in debuggers.
     virtual Memory upload(std::span<const std::byte> bytes, const std::string& name) = 0;
     template <class T> Memory upload(const std::vector<T>& values, const std::string& name) { return upload(std::as_bytes(std::span(values)), name); }
+    /// New memory for this execute() to fill.
+    virtual Memory allocate(std::size_t bytes, const std::string& name) = 0;
+    /// The same for what takes long to make: when the frame is done its content goes to the cache on disk, where a later run finds it by `key`, the
+    /// shaders of this pass, the device and the ray body. `key` has to cover all else that the content depends on. Damaged files count as none.
+    virtual KeptMemory kept(const Hash& key, std::size_t bytes, const std::string& name) = 0;
     /// Gives a handle output its struct; `keep` owns the memory that the struct points to and lives as long as the value is used (also as @prev).
     virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) = 0;
     /// Gives an output the World of the loaded scene as it stands at a frame (fractions are fine).
     virtual void provideScene(const Port& world, float at) = 0;
-    /// Where a World lies that holds each mesh of the scene by itself: instance m is mesh m, untransformed, in the pose of frame 0, at its finest level.
-    /// There is no top level over them and no light: rays are traced in onlyInstance(w, m) (trace/reference.glsl). What comes next in this pass sees it.
-    virtual Memory objects() = 0;
+    /// Where a World lies that holds each mesh of the scene by itself: instance m is mesh m, untransformed, at its finest level, in the pose that the World
+    /// of a wired input has, or of frame 0 where the input is unwired. There is no top level over them and no light: rays are traced in
+    /// onlyInstance(w, m) (trace/reference.glsl). What comes next in this pass sees it, and sceneRecords() is of that pose.
+    virtual Memory objects(const In<World>& posed) = 0;
     virtual const Scene& scene() const = 0;
     virtual SceneRecords sceneRecords() const = 0;  ///< lives as long as the scene
 };

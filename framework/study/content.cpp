@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <framework/gpu/include_closure.h>
+#include <framework/graph/kernel_source.h>
 #include <framework/scene/visit.h>
 #include <framework/study/content.h>
 
-#include <algorithm>
 #include <concepts>
 #include <span>
 #include <type_traits>
@@ -48,15 +47,6 @@ struct Adder {
     }
 };
 
-/// All shaders of a folder, because a pass may dispatch more than the one it is declared with.
-void addShaders(Hash& hash, const Path& folder, const std::vector<Path>& includes) {
-    std::vector<Path> shaders;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".comp" && entry.path().stem().extension() != ".test") shaders.push_back(entry.path());
-    std::ranges::sort(shaders);
-    for (const Path& shader : shaders) gpu::IncludeClosure(shader, includes, {}).addTo(hash);
-}
-
 }  // namespace
 
 Hash contentOf(const Graph& graph) {
@@ -65,11 +55,10 @@ Hash contentOf(const Graph& graph) {
     text.remove("scene");
     text.remove("about");
     hash.add(text.dump(-1)).add(frameworkSources());
-    addShaders(hash, shaderFolder() / "trace", {shaderFolder()});  // what the framework dispatches between passes
+    hash.addValue(contentOf(shadersIn(shaderFolder() / "trace"), {shaderFolder()}));  // what the framework dispatches between passes
     for (const GraphNode& node : graph.nodes) {
         hash.addValue(node.code);
-        if (const Plugin* plugin = node.plugin; plugin && plugin->shader && *plugin->shader)
-            addShaders(hash, shaderOf(*plugin, plugin->shader).parent_path(), includeFolders(*plugin));
+        if (node.plugin) hash.addValue(contentOf(shadersOf(*node.plugin), includeFolders(*node.plugin)));
         for (const Parameter* parameter : node.pass->parameters)
             if (const auto* file = std::get_if<std::string>(&parameter->value); parameter->isFile && !file->empty()) hash.add(readBytes(*file));
     }

@@ -13,7 +13,7 @@ struct Surfel {
     uint instance;   // NONE: the pixel shows none
     float depth;     // along the camera's forward direction, scene units
     uint normal;     // unit, world space, octahedral (packNormal): the mean's direction
-    uint measures;   // length of the mean normal, density and flags, as in the third word of a texel's geometry (impostor/texel.glsl)
+    uint measures;   // length of the mean normal, density and flags, as in the third word of a texel's shape (impostor/texel.glsl)
     uint uv;         // of set 0 (packUv)
     uint materials;  // index in World.materials, or with SURFEL_COUNTS among the flags the palette's counts
     float alpha;     // share of the texel that the object covers

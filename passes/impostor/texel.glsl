@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// What a texel of an impostor knows of the surface, and its bits: 16 bytes of geometry, 4 of texture coordinates, 4 of material.
+// What a texel of an impostor knows of the surface, and its bits: 16 bytes of shape, 4 of texture coordinates, 4 of material. Compressed, the shape takes 5
+// (ShapeBlock) and the material of the finest level 2.
 //
-// geometry.x: normal, hemi-octahedral in the view's axes, snorm16 x 2
-// geometry.y: depth, float
-// geometry.z: length of the normal, unorm16; density in 1/8 of log2 (bits 16-23); flags (bits 24-31)
-// geometry.w: alpha, float
-// uvs:        texture coordinates modulo 1, in 1/65536
-// materials:  finest level: index in World.materials; above: share of each place of the palette, in 15ths, a nibble each
+// shape.x: normal, hemi-octahedral in the view's axes, snorm16 x 2
+// shape.y: depth, float
+// shape.z: length of the normal, unorm16; density in 1/8 of log2 (bits 16-23); flags (bits 24-31)
+// shape.w: alpha, float
+// uvs:     texture coordinates modulo 1, in 1/65536
+// counts:  share of each place of the palette, in 15ths, a nibble each
 #include "base/pack.glsl"
+#include "impostor/bc4.glsl"
 #include "texture/material_map.glsl"
 #include "impostor/views.glsl"
 
@@ -46,7 +48,7 @@ vec3 fromHemiOctahedral(vec2 p) {
 uint packDensity(float density) { return density == DENSITY_NONE ? 0u : uint(clamp(floor(density * 8.0 + 192.5), 1.0, 255.0)); }
 float unpackDensity(uint code) { return code == 0u ? DENSITY_NONE : float(code) * 0.125 - 24.0; }
 
-uvec4 packGeometry(ImpostorTexel t) {
+uvec4 packShape(ImpostorTexel t) {
     float size = length(t.normal);
     ivec2 normal = ivec2(floor(hemiOctahedral(size > 0.0 ? t.normal / size : vec3(0.0, 0.0, 1.0)) * 32767.0 + 0.5));
     uint measures = uint(clamp(size, 0.0, 1.0) * 65535.0 + 0.5) | packDensity(t.density) << 16 | t.flags << 24;
@@ -59,27 +61,61 @@ uint packUv(vec2 uv) {
 }
 vec2 unpackUv(uint bits) { return vec2(bits & 0xffffu, bits >> 16) / 65536.0; }
 
-/// `material`: what stands in `materials`, of which the level decides what it means.
-ImpostorTexel unpackTexel(uvec4 geometry, uint uv, uint material, uint level) {
-    ivec2 normal = ivec2(int(geometry.x << 16) >> 16, int(geometry.x) >> 16);
-    float size = float(geometry.z & 0xffffu) / 65535.0;
-    return ImpostorTexel(size * fromHemiOctahedral(vec2(normal) / 32767.0), uintBitsToFloat(geometry.y), uintBitsToFloat(geometry.w),
-                         unpackDensity((geometry.z >> 16) & 0xffu), geometry.z >> 24, unpackUv(uv), level == 0u ? material : NONE, level == 0u ? 0u : material);
+/// Texture coordinates and materials are left empty.
+ImpostorTexel unpackShape(uvec4 bits) {
+    ImpostorTexel t = emptyTexel();
+    ivec2 normal = ivec2(int(bits.x << 16) >> 16, int(bits.x) >> 16);
+    t.normal = float(bits.z & 0xffffu) / 65535.0 * fromHemiOctahedral(vec2(normal) / 32767.0);
+    t.depth = uintBitsToFloat(bits.y);
+    t.alpha = uintBitsToFloat(bits.w);
+    t.density = unpackDensity((bits.z >> 16) & 0xffu);
+    t.flags = bits.z >> 24;
+    return t;
 }
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ImpostorGeometry { uvec4 at[]; };
+/// The same of texel 0 to 15 of a block.
+ImpostorTexel unpackShape(ShapeBlockArray blocks, uint block, uint texel) {
+    ImpostorTexel t = emptyTexel();
+    t.alpha = bc4Decode(blocks.at[block].alpha, texel);
+    if (!isSeen(t)) return t;
+    vec2 normal = 2.0 * vec2(bc4Decode(blocks.at[block].normal[0], texel), bc4Decode(blocks.at[block].normal[1], texel)) - 1.0;
+    float spread = bc4Decode(blocks.at[block].spread, texel);
+    t.normal = (1.0 - spread * spread) * fromHemiOctahedral(normal);
+    t.depth = float((blocks.at[block].depths[texel >> 1] >> (16u * (texel & 1u))) & 0xffffu) / 65535.0;
+    t.density = unpackDensity(uint(255.0 * bc4Decode(blocks.at[block].density, texel) + 0.5));
+    t.flags = (blocks.at[block].flags[texel >> 3] >> (4u * (texel & 7u))) & 15u;
+    return t;
+}
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShapeArray { uvec4 at[]; };
+
+/// What places and turns the texel: without texture coordinates and materials.
+ImpostorTexel shapeAt(Impostors impostors, uint mesh, uint level, uint view, uvec2 texel) {
+    uint64_t shapes = impostors.objects.at[mesh].shapes;
+    if (impostors.compressed != 0u) return unpackShape(ShapeBlockArray(shapes), blockIndex(impostors, level, view, texel), blockTexel(texel));
+    return unpackShape(ShapeArray(shapes).at[texelIndex(impostors, level, view, texel)]);
+}
+
+/// Number among the mesh's materials that a texel of the finest level has.
+uint materialNumber(Impostors impostors, ImpostorRecord object, uint index) {
+    if (impostors.compressed == 0u) return UintArray(object.materials).at[index];
+    uint number = (UintArray(object.materials).at[index >> 1] >> (16u * (index & 1u))) & 0xffffu;
+    return number == 0xffffu ? NONE : number;
+}
 
 /// At the finest level the counts are one material's: 15 of its place.
 ImpostorTexel texelAt(Impostors impostors, uint mesh, uint level, uint view, uvec2 texel) {
     ImpostorRecord object = impostors.objects.at[mesh];
     uint i = texelIndex(impostors, level, view, texel);
-    ImpostorTexel t = unpackTexel(ImpostorGeometry(object.geometry).at[i], UintArray(object.uvs).at[i], UintArray(object.materials).at[i], level);
-    if (level == 0u && t.material != NONE) t.counts = 15u << (4u * UintArray(object.places).at[t.material]);
+    ImpostorTexel t = shapeAt(impostors, mesh, level, view, texel);
+    t.uv = unpackUv(UintArray(object.uvs).at[i]);
+    if (level > 0u) {
+        t.counts = UintArray(object.counts).at[i - texelIndex(impostors, 1u, 0u, uvec2(0u))];
+        return t;
+    }
+    uint number = materialNumber(impostors, object, i);
+    if (number == NONE) return t;
+    t.material = UintArray(object.names).at[2u * number];
+    t.counts = 15u << (4u * UintArray(object.names).at[2u * number + 1u]);
     return t;
-}
-
-/// What places and turns the texel: without texture coordinates and materials.
-ImpostorTexel shapeAt(Impostors impostors, uint mesh, uint level, uint view, uvec2 texel) {
-    uint i = texelIndex(impostors, level, view, texel);
-    return unpackTexel(ImpostorGeometry(impostors.objects.at[mesh].geometry).at[i], 0u, NONE, level);
 }

@@ -58,6 +58,13 @@ uint texelIndex(Impostors impostors, uint level, uint view, uvec2 texel) {
     return before * impostors.views + (view * n + texel.y) * n + texel.x;
 }
 
+/// Element of the arrays of blocks that holds a texel, and which of its 16 texels that is.
+uint blockIndex(Impostors impostors, uint level, uint view, uvec2 texel) {
+    uint n = levelResolution(impostors, level) / 4u;
+    return texelIndex(impostors, level, 0u, uvec2(0u)) / 16u + (view * n + texel.y / 4u) * n + texel.x / 4u;
+}
+uint blockTexel(uvec2 texel) { return (texel.y & 3u) * 4u + (texel.x & 3u); }
+
 /// Level of the texel that is element `index` of the arrays.
 uint levelOfTexel(Impostors impostors, uint index) {
     uint level = 0u;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading, writing aside, hashing, and where folders lie.
+#include "../environment_variable.h"
 #include "../temporary_folder.h"
 
 #include <framework/core/error.h>
@@ -21,6 +22,7 @@ namespace lodestir {
 namespace {
 
 namespace fs = std::filesystem;
+using test::EnvironmentVariable;
 
 class Files : public test::FolderTest {
 protected:
@@ -213,22 +215,27 @@ TEST(Hash, EachBitChangesHalfOfThem) {
     EXPECT_NEAR(changed, 64, 1.5);
 }
 
-/// Sets an environment variable until the end of the scope.
-class Environment {
-public:
-    Environment(const char* name, const char* value)
-        : name_(name), old_(std::getenv(name) ? std::getenv(name) : ""), had_(std::getenv(name)) {
-        value ? ::setenv(name, value, 1) : ::unsetenv(name);
+TEST_F(Files, SealedOnesAreReadWholeOrNotAtAll) {
+    const Path file = folder / "deep/sealed.bin";
+    EXPECT_FALSE(readSealed(file));
+    std::vector<std::byte> content(1001);
+    for (std::size_t i = 0; i < content.size(); ++i) content[i] = std::byte(i * 7);
+    writeSealed(file, content);
+    EXPECT_EQ(readSealed(file), content);
+    const std::vector<std::byte> whole = readBytes(file);
+    for (const std::size_t size : {std::size_t(0), std::size_t(7), sizeof(Hash), whole.size() - 1}) {
+        writeFile(file, std::span(whole).first(size));
+        EXPECT_FALSE(readSealed(file)) << size;
     }
-    ~Environment() { had_ ? ::setenv(name_, old_.c_str(), 1) : ::unsetenv(name_); }
-    Environment(const Environment&) = delete;
-    Environment& operator=(const Environment&) = delete;
-
-private:
-    const char* name_;
-    std::string old_;
-    bool had_;
-};
+    for (const std::size_t place : {std::size_t(0), sizeof(Hash), whole.size() - 1}) {
+        std::vector<std::byte> damaged = whole;
+        damaged[place] ^= std::byte(16);
+        writeFile(file, damaged);
+        EXPECT_FALSE(readSealed(file)) << place;
+    }
+    writeSealed(file, {});
+    EXPECT_EQ(readSealed(file), std::vector<std::byte>());
+}
 
 // If this fails, files written on Windows name nothing, or a name that really has a backslash means another file.
 TEST_F(Files, BackslashesAreSlashesWhereNothingHasTheName) {
@@ -245,27 +252,27 @@ TEST_F(Files, BackslashesAreSlashesWhereNothingHasTheName) {
 
 TEST_F(Files, TheCacheLiesWhereTheUserSays) {
     {
-        const Environment chosen("LODESTIR_CACHE", (folder / "mine").c_str());
+        const EnvironmentVariable chosen("LODESTIR_CACHE", (folder / "mine").c_str());
         EXPECT_EQ(cacheFolder("bvh"), folder / "mine/bvh");
         EXPECT_TRUE(fs::is_directory(folder / "mine/bvh"));
     }
-    const Environment unset("LODESTIR_CACHE", nullptr);
-    const Environment xdg("XDG_CACHE_HOME", (folder / "xdg").c_str());
+    const EnvironmentVariable unset("LODESTIR_CACHE", nullptr);
+    const EnvironmentVariable xdg("XDG_CACHE_HOME", (folder / "xdg").c_str());
     EXPECT_EQ(cacheFolder("bvh"), folder / "xdg/lodestir/bvh");
-    const Environment relative("XDG_CACHE_HOME", "not/absolute");  // the XDG specification says to ignore it
-    const Environment home("HOME", (folder / "home").c_str());
+    const EnvironmentVariable relative("XDG_CACHE_HOME", "not/absolute");  // the XDG specification says to ignore it
+    const EnvironmentVariable home("HOME", (folder / "home").c_str());
     EXPECT_EQ(cacheFolder("bvh"), folder / "home/.cache/lodestir/bvh");
-    const Environment broken("HOME", "/proc/nowhere");
+    const EnvironmentVariable broken("HOME", "/proc/nowhere");
     EXPECT_EQ(cacheFolder("bvh").filename(), "bvh");
     EXPECT_TRUE(fs::is_directory(cacheFolder("bvh")));
-    const Environment wrong("LODESTIR_CACHE", "/proc/nowhere");
+    const EnvironmentVariable wrong("LODESTIR_CACHE", "/proc/nowhere");
     EXPECT_NE(refusal([] { cacheFolder("bvh"); }).find("check LODESTIR_CACHE"), std::string::npos);
 }
 
 TEST_F(Files, ShadersComeFromTheSourceTreeUnlessTheUserSays) {
-    const Environment unset("LODESTIR_SHADERS", nullptr);
+    const EnvironmentVariable unset("LODESTIR_SHADERS", nullptr);
     EXPECT_EQ(shaderFolder(), Path(LODESTIR_SOURCE_DIR) / "framework/shaders");
-    const Environment chosen("LODESTIR_SHADERS", folder.c_str());
+    const EnvironmentVariable chosen("LODESTIR_SHADERS", folder.c_str());
     EXPECT_EQ(shaderFolder(), folder);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Impostors hold what was there: shapes whose every texel is known, and pyramids that can be counted by hand.
 #include "body.h"
+#include "../environment_variable.h"
 #include "frames.h"
 #include "program.h"
 
@@ -53,7 +54,7 @@ OrderedJson bakeAndView(const OrderedJson& bake) {
     return {{"bake", {{"type", "impostor_bake"}, {"set", bake}}}, {"view", {{"type", "impostor_view"}, {"in", {{"impostors", "bake"}}}}}};
 }
 
-/// Bakes at 64 texels and reads back texel by texel.
+/// Bakes anew at 64 texels, unless `set` says otherwise, and reads back texel by texel.
 class Baked {
 public:
     Baked(const Path& scene, int views, OrderedJson set = OrderedJson::object())
@@ -86,11 +87,23 @@ private:
     static OrderedJson graph(int views, OrderedJson set) {
         set["views"] = views;
         set["resolution"] = 64;
+        if (!set.contains("cache")) set["cache"] = false;
         return bakeAndView(set);
     }
     int views_;
     Frames frames_;
 };
+
+/// Rays of the last frame that looked at meshes: none where nothing was baked.
+std::uint64_t raysOf(const Frames& frames) { return frames.rays("bake")[RAYS_PRIMARY]; }
+
+/// Impostors in a cache folder.
+std::vector<Path> keptFiles(const Path& cache) {
+    std::vector<Path> files;
+    std::error_code absent;
+    for (const auto& entry : std::filesystem::directory_iterator(cache / "impostor_bake", absent)) files.push_back(entry.path());
+    return files;
+}
 
 class ImpostorBake : public testing::Test {
 protected:
@@ -355,8 +368,6 @@ TEST_F(ImpostorBake, MasksLetRaysThroughAndNormalMapsCount) {
     EXPECT_GT(seen, 300u);
 }
 
-std::uint64_t raysOf(const Frames& frames) { return frames.rays("bake")[RAYS_PRIMARY]; }
-
 TEST_F(ImpostorBake, EachMeshOnceAndAgainOnlyWhenAsked) {
     Body one(1), three(1);
     for (Body* body : {&one, &three}) body->torus(1, 0.4, {0, 1, 0});
@@ -415,19 +426,38 @@ TEST_F(ImpostorBake, CoverageIsWhatViewsSee) {
     EXPECT_GT(fewer, 0.8);
 }
 
-// A mesh that deforms is baked as frame 0 has it, and the frame in which that happens shows what it would have shown.
-TEST_F(ImpostorBake, DeformingMeshesAreBakedAtRest) {
+/// Squares of side 2 around the origin that stand still, and one that its target moves from z = 0 to z = 1 in the first second.
+Path writeWaving(const Path& folder) {
     GltfModel model;
-    nlohmann::json square = {{"attributes", {{"POSITION", model.positions({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0})}}}};
-    square["targets"] = {{{"POSITION", model.positions({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}}};
-    model.addMesh(square);
+    const std::vector<float> corners{-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, -1, 0, 1, 1, 0, -1, 1, 0};
+    nlohmann::json still = {{"attributes", {{"POSITION", model.positions(corners)}}}}, waving = still;
+    waving["targets"] = {{{"POSITION", model.positions({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1})}}};
+    model.addMesh(waving);
+    model.addMesh(still);
+    model.json["meshes"][0]["name"] = "waving";
+    model.json["meshes"][1]["name"] = "still";
     const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1), weights = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
     model.json["accessors"][std::size_t(times)].update({{"min", {0}}, {"max", {1}}});
     model.json["animations"] = {
         {{"samplers", {{{"input", times}, {"output", weights}}}}, {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}}};
-    const Path file = model.write(folder.path / "waving.gltf");
-    OrderedJson passes = bakeAndView({{"resolution", 64}, {"views", 6}});
-    passes["view"]["set"] = {{"view", 4}};
+    return model.write(folder / "waving.gltf");
+}
+
+void expectHeight(const std::vector<ShownTexel>& texels, double z) {
+    std::size_t seen = 0;
+    for (const ShownTexel& t : texels) {
+        if (t.alpha == 0) continue;
+        ++seen;
+        ASSERT_NEAR(t.position.z, z, 3e-5);  // half a step of 16 bits over the diameter
+    }
+    EXPECT_GT(seen, 1500u);
+}
+
+// A mesh that deforms is baked as frame 0 has it, and the frame in which that happens shows what it would have shown.
+TEST_F(ImpostorBake, DeformingMeshesAreBakedAtRest) {
+    const Path file = writeWaving(folder.path);
+    OrderedJson passes = bakeAndView({{"resolution", 64}, {"views", 6}, {"cache", false}});
+    passes["view"]["set"] = {{"view", 4}, {"mesh", "waving"}};
     passes["hits"] = {{"type", "visibility"}};
     Frames baking(file, {64, 64}, passes, {"view.texels", "hits.depth"}), plain(file, {64, 64}, {{"hits", passes["hits"]}}, {"hits.depth"});
     for (Frames* frames : {&baking, &plain}) frames->restart(15);
@@ -436,13 +466,170 @@ TEST_F(ImpostorBake, DeformingMeshesAreBakedAtRest) {
         plain.run();
         EXPECT_EQ(baking.image("hits.depth").values, plain.image("hits.depth").values) << frame;
     }
-    std::size_t seen = 0;
-    for (const ShownTexel& t : baking.records<ShownTexel>("view.texels")) {
-        if (t.alpha == 0) continue;
-        ++seen;
-        ASSERT_NEAR(t.position.z, 0, 1e-6);
+    expectHeight(baking.records<ShownTexel>("view.texels"), 0);
+}
+
+// With the scene wired, what deforms is baked anew in each new pose, and nothing else is.
+TEST_F(ImpostorBake, DeformingMeshesFollowTheSceneThatIsWired) {
+    OrderedJson passes = bakeAndView({{"resolution", 64}, {"views", 6}, {"compression", "bc"}});
+    passes["scene"] = {{"type", "scene"}};
+    passes["bake"]["in"] = {{"pose", "scene.world"}};
+    passes["view"]["set"] = {{"view", 4}, {"mesh", "waving"}};
+    const std::uint64_t once = 6 * 64 * 64 * 4;
+    const EnvironmentVariable cache("LODESTIR_CACHE", (folder.path / "cache").c_str());
+    Frames frames(writeWaving(folder.path), {64, 64}, passes, {"view.texels"});
+    frames.restart(6);
+    for (int frame = 6; frame < 9; ++frame) {
+        frames.run();
+        EXPECT_EQ(raysOf(frames), frame == 6 ? 2 * once : once) << frame;
+        expectHeight(frames.records<ShownTexel>("view.texels"), frame / 30.0);
     }
-    EXPECT_GT(seen, 1500u);
+    frames.set("scene.animate", Json(false));
+    frames.set("scene.pose", Json(8));
+    frames.run(2);
+    EXPECT_EQ(raysOf(frames), 0u);
+    frames.set("scene.pose", Json(15));
+    frames.run();
+    EXPECT_EQ(raysOf(frames), once);
+    expectHeight(frames.records<ShownTexel>("view.texels"), 0.5);
+    frames.set("view.mesh", Json("still"));
+    frames.run();
+    expectHeight(frames.records<ShownTexel>("view.texels"), 0);
+    // Of the poses no files are left, of the mesh that stands still one.
+    EXPECT_EQ(keptFiles(folder.path / "cache").size(), 1u);
+}
+
+// What may be lossy is off by little, all else by nothing.
+TEST_F(ImpostorBake, CompressionKeepsWhatItMust) {
+    Body ball(1);
+    ball.sphere(1);
+    const Checker checker;
+    Body checkered = checker.body();
+    for (const Path& model : {ball.write(folder.path, "ball"), checkered.write(folder.path, "checker")}) {
+        const bool smooth = model.stem() == "ball";
+        const glm::uvec2 size(smooth ? 256 : 64);
+        const auto open = [&](const char* compression) {
+            return std::make_unique<Frames>(
+                model, size, bakeAndView({{"resolution", size.x}, {"views", 6}, {"compression", compression}, {"cache", false}}),
+                std::vector<std::string>{"view.texels", "bake.bytes", "bake.rawBytes"});
+        };
+        const auto raw = open("none"), compressed = open("bc");
+        std::vector<double> angles;
+        double worstAlpha = 0, worstSpread = 0, worstDensity = 0, worstDepth = 0;
+        for (int level = 0; level < (smooth ? 4 : 3); ++level) {
+            for (const int view : {0, 3, 4}) {
+                for (Frames* frames : {raw.get(), compressed.get()}) {
+                    frames->set("view.view", Json(view));
+                    frames->set("view.level", Json(level));
+                    frames->run();
+                }
+                const auto was = raw->records<ShownTexel>("view.texels"), is = compressed->records<ShownTexel>("view.texels");
+                for (std::size_t i = 0; i < was.size(); ++i) {
+                    const ShownTexel &a = was[i], &b = is[i];
+                    ASSERT_EQ(a.alpha >= 1 / 255.0f, b.alpha >= 1 / 255.0f);
+                    worstAlpha = std::max(worstAlpha, double(std::abs(a.alpha - b.alpha)));
+                    if (b.alpha == 0) {
+                        ASSERT_EQ(b.depth, 1);
+                        continue;
+                    }
+                    ASSERT_EQ(a.uv, b.uv);
+                    ASSERT_EQ(a.material, b.material);
+                    ASSERT_EQ(a.counts, b.counts);
+                    ASSERT_EQ(a.flags, b.flags);
+                    worstDepth = std::max(worstDepth, double(std::abs(a.depth - b.depth)));
+                    worstDensity = std::max(worstDensity, double(std::abs(a.density - b.density)));
+                    const double lengthA = glm::length(glm::dvec3(a.normal)), lengthB = glm::length(glm::dvec3(b.normal));
+                    worstSpread = std::max(worstSpread, std::abs(std::sqrt(std::max(0.0, 1 - lengthA)) - std::sqrt(std::max(0.0, 1 - lengthB))));
+                    if (level == 0) angles.push_back(glm::degrees(std::acos(std::min(1.0, glm::dot(glm::dvec3(a.normal), glm::dvec3(b.normal)) / (lengthA * lengthB)))));
+                }
+            }
+        }
+        std::ranges::sort(angles);
+        const double mean = std::accumulate(angles.begin(), angles.end(), 0.0) / double(angles.size()), p99 = angles[angles.size() * 99 / 100];
+        std::printf("%s: normals off by %.3f degrees in the mean, 99 %%: %.3f, at most %.3f; alpha %.4f, spread %.4f, density %.3f, depth %.1e at most\n",
+                    model.stem().c_str(), mean, p99, angles.back(), worstAlpha, worstSpread, worstDensity, worstDepth);
+        EXPECT_LT(mean, smooth ? 0.25 : 0.5);  // of two directions in a block each is as near as 8 bits are
+        EXPECT_LT(p99, 1);
+        EXPECT_LE(worstDepth, 0.5 / 65535 + 1e-7);
+        EXPECT_LE(worstDensity, smooth ? 1 : 0);
+        EXPECT_LE(worstAlpha, 0.1);
+        EXPECT_LE(worstSpread, 0.1);
+        std::uint64_t finest = 6 * size.x * size.x, all = 0;
+        for (std::uint32_t n = size.x; n >= 4; n /= 2) all += 6 * n * n;
+        EXPECT_EQ(compressed->records<std::uint32_t>("bake.bytes").at(0), 13 * all - 2 * finest);
+        EXPECT_EQ(compressed->records<std::uint32_t>("bake.rawBytes").at(0), 24 * all);
+        EXPECT_EQ(raw->records<std::uint32_t>("bake.bytes").at(0), 24 * all);
+    }
+}
+
+// What was baked once is found again, wherever the mesh stands and whatever colours it has, and by nothing else.
+TEST_F(ImpostorBake, SecondRunFindsWhatTheFirstBaked) {
+    const EnvironmentVariable cache("LODESTIR_CACHE", (folder.path / "cache").c_str());
+    const auto kept = [&] { return keptFiles(folder.path / "cache"); };
+    const std::uint64_t once = 6 * 64 * 64 * 4;
+    const auto body = [](double tube) {
+        Body made(3);
+        made.torus(1, tube, {0, 1, 0});
+        addSquare(made, 2, {-0.3, -0.3}, {0.3, 0.3}, 0);
+        return made;
+    };
+    const auto bake = [&](Body made, const std::string& name, OrderedJson set, std::uint64_t rays) {
+        set["cache"] = true;
+        Baked baked(made.write(folder.path, name), 6, set);
+        auto texels = baked.texels(1, 0);
+        EXPECT_EQ(raysOf(baked.frames()), rays) << name << " " << set;
+        for (int level = 0; level < 3; ++level) {
+            const auto more = baked.texels(4, level);
+            texels.insert(texels.end(), more.begin(), more.end());
+        }
+        EXPECT_EQ(baked.coverage().x, 1024);
+        return texels;
+    };
+    const auto same = [](const std::vector<ShownTexel>& a, const std::vector<ShownTexel>& b) {
+        return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+    };
+    const OrderedJson bc = {{"compression", "bc"}};
+    const auto raw = bake(body(0.4), "ring", {}, once), compressed = bake(body(0.4), "ring", bc, once);
+    ASSERT_EQ(kept().size(), 2u);
+    EXPECT_TRUE(same(raw, bake(body(0.4), "ring", {}, 0)));
+    EXPECT_TRUE(same(compressed, bake(body(0.4), "ring", bc, 0)));
+    EXPECT_FALSE(same(raw, compressed));
+
+    // Another name, another colour, another number of its materials in the scene.
+    Body other = body(0.4);
+    other.material(0)["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0, 0, 1}}, {"roughnessFactor", 0.3}};
+    EXPECT_TRUE(same(raw, bake(other, "painted", {}, 0)));
+    body(0.7).write(folder.path, "before");
+    writeFile(folder.path / "two.json", OrderedJson{{"format", 1}, {"models", {{"before", {{"file", "before.gltf"}}}, {"ring", {{"file", "ring.gltf"}}}}}}.dump());
+    Baked renumbered(folder.path / "two.json", 6, {{"mesh", "ring"}, {"cache", true}});
+    std::vector<ShownTexel> found = renumbered.texels(1);
+    EXPECT_EQ(raysOf(renumbered.frames()), 0u);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i].alpha == 0) continue;
+        EXPECT_GT(found[i].material, raw[i].material);
+        found[i].material = raw[i].material;
+    }
+    EXPECT_TRUE(same({raw.begin(), raw.begin() + 64 * 64}, found));
+
+    // Another shape, another side that is seen, another resolution of the same.
+    bake(body(0.41), "thicker", {}, once);
+    Body open = body(0.4);
+    open.material(2)["doubleSided"] = true;
+    bake(open, "open", {}, once);
+    ASSERT_EQ(kept().size(), 4u);
+
+    // Files that are cut off, or hold one wrong bit, or nothing: baked anew, and right again for the next.
+    for (const int damage : {0, 1, 2}) {
+        for (const Path& file : kept()) {
+            std::vector<std::byte> bytes = readBytes(file);
+            if (damage == 0) bytes.resize(bytes.size() / 2);
+            if (damage == 1) bytes[bytes.size() / 3] ^= std::byte(4);
+            if (damage == 2) bytes.clear();
+            writeFile(file, bytes);
+        }
+        EXPECT_TRUE(same(raw, bake(body(0.4), "ring", {}, once))) << damage;
+        EXPECT_TRUE(same(raw, bake(body(0.4), "ring", {}, 0))) << damage;
+    }
 }
 
 class ImpostorBodies : public ProgramTest {};
@@ -457,7 +644,7 @@ TEST_F(ImpostorBodies, Agree) {
     ASSERT_GT(bodies.size(), 1u);
     OrderedJson graph = {{"format", 1},
                          {"scene", (sourceFolder / "scenes/chessboard.json").string()},
-                         {"passes", bakeAndView({{"mesh", "white_knight"}, {"resolution", 64}, {"views", 6}})},
+                         {"passes", bakeAndView({{"mesh", "white_knight"}, {"resolution", 64}, {"views", 6}, {"cache", false}})},
                          {"show", "view.color"}};
     write("knight.json", graph);
     std::vector<ShownTexel> first;
@@ -497,6 +684,66 @@ TEST_F(ImpostorBodies, WrongParametersAreNamed) {
     const Output output = run("bake.views=6");
     EXPECT_NE(output.err.find("chessboard.json: no instance shows a mesh \"white_nkight\""), std::string::npos) << output.err;
     EXPECT_NE(output.err.find("did you mean \"white_knight\""), std::string::npos) << output.err;
+}
+
+class ImpostorCommand : public ProgramTest {};
+
+// What `lodestir lod --impostor` bakes is what graphs find, also in a copy of the model that has levels.
+TEST_F(ImpostorCommand, FillsTheCacheThatGraphsLookInto) {
+    const EnvironmentVariable cache("LODESTIR_CACHE", (folder / "cache").c_str());
+    const std::string model = (sceneFolder() / "cube.glb").string();
+    const auto bake = [&](Arguments more) {
+        more.insert(more.begin(), {"lod", model, "--impostor", "--json", "--mesh", "cube"});
+        const Output output = lodestir(more);
+        EXPECT_EQ(output.exitCode, 0) << commandText(more) << "\n" << output.err;
+        EXPECT_EQ(output.err.find("validation"), std::string::npos) << output.err;
+        return OrderedJson::parse(output.out);
+    };
+    const Arguments small{"--views", "6", "--resolution", "64", "--compression", "bc"};
+    const std::uint64_t finest = 6 * 64 * 64, all = finest + finest / 4 + finest / 16 + finest / 64 + finest / 256;
+    for (const bool again : {false, true}) {
+        const OrderedJson json = bake(small);
+        ASSERT_EQ(json["impostors"].size(), 1u);
+        const OrderedJson& cube = json["impostors"][0];
+        EXPECT_EQ(cube["name"], "cube");
+        EXPECT_EQ(cube["views"], 6);
+        EXPECT_EQ(cube["resolution"], 64);
+        EXPECT_EQ(cube["bytes"], 13 * all - 2 * finest);
+        EXPECT_EQ(cube["rawBytes"], 24 * all);
+        EXPECT_EQ(cube["coverage"], 1.0);
+        EXPECT_EQ(cube["cached"], again);
+    }
+    Frames frames(model, {64, 64}, bakeAndView({{"mesh", "cube"}, {"views", 6}, {"resolution", 64}, {"compression", "bc"}}), {"view.texels"});
+    frames.run();
+    EXPECT_EQ(raysOf(frames), 0u);
+    EXPECT_EQ(keptFiles(folder / "cache").size(), 1u);
+
+    Arguments both = small;
+    both.insert(both.end(), {"--out", (folder / "levels.glb").string(), "--levels", "2"});
+    const OrderedJson json = bake(both);
+    EXPECT_TRUE(json.contains("meshes"));  // none: the model brings its levels
+    EXPECT_EQ(json["impostors"][0]["cached"], true);
+    EXPECT_TRUE(std::filesystem::exists(folder / "levels.glb"));
+    // What the pass declares holds where nothing is said.
+    const OrderedJson plain = bake({});
+    EXPECT_EQ(plain["impostors"][0]["views"], 18);
+    EXPECT_EQ(plain["impostors"][0]["bytes"], plain["impostors"][0]["rawBytes"]);
+    EXPECT_EQ(keptFiles(folder / "cache").size(), 2u);
+}
+
+TEST_F(ImpostorCommand, SaysWhatIsWrong) {
+    const std::string model = (sceneFolder() / "cube.glb").string();
+    const auto refuses = [&](const Arguments& arguments, int exitCode, const std::string& message) {
+        const Output output = lodestir(arguments);
+        EXPECT_EQ(output.exitCode, exitCode) << output.err;
+        EXPECT_NE(output.err.find(message), std::string::npos) << output.err;
+    };
+    refuses({"lod", model}, 2, "--out: is required, unless --impostor is all that is asked for");
+    refuses({"lod", model, "--out", (folder / "x.glb").string(), "--views", "6"}, 2, "--views requires --impostor");
+    refuses({"lod", model, "--impostor", "--mesh", "cubs"}, 1, "cube.glb: no instance shows a mesh \"cubs\"; did you mean \"cube\"?");
+    refuses({"lod", model, "--impostor", "--views", "9"}, 1, "set \"views\" to 6, 12 or 18");
+    refuses({"lod", model, "--impostor", "--views", "24"}, 1, "bake.views");
+    refuses({"lod", model, "--impostor", "--compression", "bc7"}, 1, "bake.compression");
 }
 
 }  // namespace

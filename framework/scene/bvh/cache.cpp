@@ -2,7 +2,6 @@
 // Keeps built hierarchies on disk by the content they were built from.
 #include <framework/core/error.h>
 #include <framework/core/files.h>
-#include <framework/core/is_file.h>
 #include <framework/core/log.h>
 #include <framework/scene/bvh/bvh.h>
 
@@ -12,11 +11,10 @@
 namespace lodestir {
 namespace {
 
-constexpr std::string_view version = "lodestir bvh 2";  // of the builder and the file: change it when either changes
+constexpr std::string_view version = "lodestir bvh 3";  // of the builder and the file: change it when either changes
 constexpr std::size_t worthwhile = 16384;               // triangles: below, building is as fast as reading
 
 struct Header {
-    Hash content;  ///< of all that follows: a damaged file would send rays anywhere
     glm::vec3 gridBase, gridScale;
     std::uint32_t root;
     std::uint32_t nodes, triangles;
@@ -50,21 +48,18 @@ void writeBvh(const Path& path, const Bvh& bvh) {
     append(bytes, std::span(bvh.triangles));
     append(bytes, std::span(bvh.order));
     std::memcpy(bytes.data(), &header, sizeof header);
-    header.content = Hash().add(std::span(bytes).subspan(sizeof(Hash)));
-    std::memcpy(bytes.data(), &header, sizeof header);
-    writeFile(path, bytes);
+    writeSealed(path, bytes);
 }
 
 std::optional<Bvh> readBvh(const Path& path) {
-    if (!isFile(path)) return {};
-    const std::vector<std::byte> file = readBytes(path);
-    std::span<const std::byte> bytes = file;
+    const std::optional<std::vector<std::byte>> file = readSealed(path);  // a damaged one would send rays anywhere
+    if (!file) return {};
+    std::span<const std::byte> bytes = *file;
     Header header;
     if (bytes.size() < sizeof header) return {};
     std::memcpy(&header, bytes.data(), sizeof header);
     const std::size_t triangleBytes = sizeof(BvhTriangle) + sizeof(std::uint32_t);
     if (bytes.size() != sizeof header + header.nodes * sizeof(BvhNode) + header.triangles * triangleBytes) return {};
-    if (header.content != Hash().add(bytes.subspan(sizeof(Hash)))) return {};
     bytes = bytes.subspan(sizeof header);
     Bvh bvh{.gridBase = header.gridBase, .gridScale = header.gridScale, .root = header.root};
     bvh.nodes = take<BvhNode>(bytes, header.nodes);
@@ -78,11 +73,7 @@ std::optional<Bvh> readBvh(const Path& path) {
 Bvh cachedBvh(const BvhInput& input) {
     if (input.triangles.size() < worthwhile) return buildBvh(input);
     const Path path = cacheFolder("bvh") / (keyOf(input).hex() + ".bvh");
-    try {
-        if (std::optional<Bvh> bvh = readBvh(path)) return std::move(*bvh);
-    } catch (const Error&) {
-        // Unreadable is as good as missing.
-    }
+    if (std::optional<Bvh> bvh = readBvh(path)) return std::move(*bvh);
     Bvh bvh = buildBvh(input);
     try {
         writeBvh(path, bvh);

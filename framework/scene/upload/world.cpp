@@ -296,6 +296,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
         levels_ = std::make_shared<const Levels>(Levels{std::move(levels), std::move(buffer)});
     }
     World w = placedWorld();
+    if (scene_.deforms()) frames_[w.positions] = frame;
     w.levels = levels_->buffer.address();
     w.levelsChanged = w.levels + levels_->values.size() * sizeof(std::uint32_t);
     w.camera = cameraRecord(scene_.cameraAt(frame), size);
@@ -307,8 +308,9 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     return {w, std::make_shared<Keep>(Keep{fixed_, moving_, levels_})};
 }
 
-FrameWorld WorldBuilder::objects() {
-    moveTo(0);
+FrameWorld WorldBuilder::objects(const World* posed) {
+    const auto known = posed ? frames_.find(posed->positions) : frames_.end();
+    moveTo(known == frames_.end() ? 0 : known->second);
     std::vector<TraceInstance> traced;
     std::vector<InstanceRecord> records;
     for (std::uint32_t m = 0; m < scene_.meshes.size(); ++m) {

@@ -6,6 +6,7 @@
 #include <framework/scene/scene.h>
 #include <framework/scene/upload/bottom_levels.h>
 
+#include <map>
 #include <memory>
 
 namespace lodestir {
@@ -25,8 +26,8 @@ public:
     /// The World at a frame (fractions are fine), for an image of `size` pixels, with the levels of the scene's own policy. Transforms, the
     /// top level, lights and meshes that deform are made anew only when something moved; a World handed out earlier stays as it was.
     FrameWorld at(float frame, glm::uvec2 size);
-    /// Each mesh by itself, as Frame::objects says.
-    FrameWorld objects();
+    /// Each mesh by itself, as Frame::objects says, in the pose of a World that at() made; nullptr: of frame 0.
+    FrameWorld objects(const World* posed);
     SceneRecords records() const;
     std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
 
@@ -48,6 +49,7 @@ private:
     std::unique_ptr<BottomLevels> bottomLevels_;  ///< null without ray queries
     std::shared_ptr<const Moving> moving_;
     Pose pose_;  ///< that moving_ was made for
+    std::map<VkDeviceAddress, float> frames_;  ///< whose pose lies at World.positions, where meshes deform
     std::shared_ptr<const Levels> levels_;
 };
 

@@ -13,7 +13,7 @@ struct Path {
     bool seen;
 };
 
-World world() { return onlyInstance(objects(), bakedMesh()); }
+World world() { return onlyInstance(objects(), job().mesh); }
 uint pathItems(World now) { return impostors().views; }
 World pathWorld(World now, uint item) { return now; }
 
@@ -24,7 +24,7 @@ float twiceArea(World w, uint primitive) {
 
 // One of some triangles by area, and a point of it.
 void pathStart(inout Path p, World now, ivec2 pixel) {
-    LevelRecord level = now.meshLevels.at[bakedMesh() * LEVELS];
+    LevelRecord level = now.meshLevels.at[job().mesh * LEVELS];
     uvec2 seed = resamplingSeed(uvec2(pixel), 0u, runSeed(), passSalt());
     const uint candidates = 64;
     uint primitive = level.firstPrimitive;
@@ -38,7 +38,7 @@ void pathStart(inout Path p, World now, ivec2 pixel) {
     }
     vec2 u = random2(seed, 0, RANDOM_FREE);
     float root = sqrt(u.x);
-    p.point = Hit(0.0, vec2(1 - root, root * u.y), primitive, bakedMesh());
+    p.point = Hit(0.0, vec2(1 - root, root * u.y), primitive, job().mesh);
     if (!alphaAccepts(now, primitive, p.point.barycentrics)) p.point.primitive = NONE;
     p.seen = false;
 }

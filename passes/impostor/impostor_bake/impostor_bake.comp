@@ -15,12 +15,12 @@ struct Path {
     Hit hits[4];
 };
 
-World world() { return onlyInstance(objects(), bakedMesh()); }
+World world() { return onlyInstance(objects(), job().mesh); }
 uint pathItems(World now) { return 4; }
 World pathWorld(World now, uint item) { return now; }
 
 void pathStart(inout Path p, World now, ivec2 pixel) {
-    uint n = impostors().resolution;
+    uint n = job().texels.resolution;
     p.view = uint(pixel.x) / n;
     p.texel = uvec2(uint(pixel.x) % n, pixel.y);
 }
@@ -33,8 +33,9 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
     anyHit = false;
     purpose = RAYS_PRIMARY;
-    Impostors made = impostors();
-    ImpostorRecord object = made.objects.at[bakedMesh()];
+    BakeJob work = job();
+    Impostors made = work.texels;
+    ImpostorRecord object = made.objects.at[work.mesh];
     ImpostorView v = impostorView(made.views, p.view);
     vec2 window = (vec2(p.texel) + 0.25 + 0.5 * vec2(p.item & 1u, p.item >> 1)) / float(made.resolution);
     return Ray(windowPoint(made, object.center, object.radius, v, window, -0.5), 0.0, -v.d, 4.0 * object.radius, 0u);
@@ -55,7 +56,8 @@ float densityOf(World w, Surface s, float side) {
     return area > 0.0 && s.twiceArea > 0.0 ? 0.5 * log2(area / s.twiceArea) + log2(0.5 * side) : DENSITY_NONE;
 }
 
-ImpostorTexel sampleOf(World w, Impostors made, ImpostorRecord object, ImpostorView v, Hit hit) {
+// Its material is the number among the mesh's.
+ImpostorTexel sampleOf(World w, BakeJob work, ImpostorRecord object, ImpostorView v, Hit hit) {
     ImpostorTexel t = emptyTexel();
     if (hit.primitive == NONE) return t;
     Surface s = surfaceAt(w, hit, -v.d);
@@ -65,23 +67,24 @@ ImpostorTexel sampleOf(World w, Impostors made, ImpostorRecord object, ImpostorV
               (dot(n, s.normal) < 0.95 ? TEXEL_BUMPED : 0u);
     n = intoView(v, n);
     t.normal = safeNormalize(vec3(n.xy, max(n.z, 0.0)), vec3(0.0, 0.0, 1.0));
-    t.depth = windowOf(made, object.center, object.radius, v, s.position).z;
+    t.depth = windowOf(work.texels, object.center, object.radius, v, s.position).z;
     t.alpha = 1.0;
-    t.density = densityOf(w, s, texelSide(made, object.radius, 0u));
+    t.density = densityOf(w, s, texelSide(work.texels, object.radius, 0u));
     t.uv = s.uv;
-    t.material = s.material;
-    t.counts = 15u << (4u * UintArray(object.places).at[s.material]);
+    t.material = UintArray(work.numbers).at[s.material];
+    t.counts = 15u << (4u * UintArray(object.names).at[2u * t.material + 1u]);
     return t;
 }
 
 void pathEnd(Path p, ivec2 pixel) {
     World w = world();
-    Impostors made = impostors();
-    ImpostorRecord object = made.objects.at[bakedMesh()];
-    ImpostorView v = impostorView(made.views, p.view);
+    BakeJob work = job();
+    ImpostorRecord object = work.texels.objects.at[work.mesh];
+    ImpostorView v = impostorView(work.texels.views, p.view);
     ImpostorTexel samples[4];
-    for (int i = 0; i < 4; ++i) samples[i] = sampleOf(w, made, object, v, p.hits[i]);
-    storeTexel(made, 0u, p.view, p.texel, reduceTexels(samples, 2u * made.resolution));
+    for (int i = 0; i < 4; ++i) samples[i] = sampleOf(w, work, object, v, p.hits[i]);
+    ImpostorTexel t = reduceTexels(samples, 2u * work.texels.resolution);
+    storeTexel(work, 0u, p.view, p.texel, t, t.material);
 }
 
 #include "trace/driver.glsl"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 namespace lodestir {
 namespace {
@@ -25,27 +26,30 @@ float difference(const Material& a, const Material& b) {
 
 }  // namespace
 
+std::vector<std::uint32_t> Palette::numbers(const Scene& scene) const {
+    std::vector<std::uint32_t> numbers(scene.materials.size(), NONE);
+    for (std::uint32_t i = 0; i < materials.size(); ++i) numbers[materials[i]] = i;
+    return numbers;
+}
+
 Palette paletteOf(const Scene& scene, const Mesh& mesh) {
     const std::vector<double> areas = areasOf(scene, mesh.levels.front());
-    std::vector<std::uint32_t> order(areas.size());
+    Palette palette;
+    std::vector<std::uint32_t>& order = palette.materials;
+    order.resize(areas.size());
     std::iota(order.begin(), order.end(), 0u);
     std::erase_if(order, [&](std::uint32_t m) { return !(areas[m] > 0); });
     std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) { return areas[a] > areas[b]; });
 
-    Palette palette;
-    palette.materials.fill(NONE);
-    palette.places.assign(areas.size(), 0);
     for (std::uint32_t i = 0; i < order.size(); ++i) {
         std::uint32_t place = i;
-        if (i < PALETTE) {
-            palette.materials[i] = order[i];
-        } else {
-            const auto like =
-                std::ranges::min_element(palette.materials, {}, [&](std::uint32_t m) { return difference(scene.materials[m], scene.materials[order[i]]); });
-            place = std::uint32_t(like - palette.materials.begin());
+        if (i >= PALETTE) {
+            const auto large = std::span(order).first(PALETTE);
+            const auto like = std::ranges::min_element(large, {}, [&](std::uint32_t m) { return difference(scene.materials[m], scene.materials[order[i]]); });
+            place = std::uint32_t(like - large.begin());
             ++palette.merged;
         }
-        palette.places[order[i]] = place;
+        palette.places.push_back(place);
     }
     return palette;
 }

@@ -35,7 +35,7 @@ void main() {
         f.instance = x.instance;
         f.depth = depthIn(s, p);
         f.normal = packNormal(s.normal);
-        f.measures = packGeometry(t).z;
+        f.measures = packShape(t).z;
         f.uv = packUv(t.uv);
         f.materials = t.material;
         f.alpha = params.blend ? t.alpha : 1.0;
