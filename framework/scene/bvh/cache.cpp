@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 // Keeps built hierarchies on disk by the content they were built from.
 #include <framework/core/error.h>
-#include <framework/core/files.h>
+#include <framework/core/file_parts.h>
 #include <framework/core/is_file.h>
 #include <framework/core/log.h>
 #include <framework/scene/bvh/bvh.h>
 
-#include <cstring>
+#include <array>
 #include <optional>
 
 namespace lodestir {
 namespace {
 
-constexpr std::string_view version = "lodestir bvh 2";  // of the builder and the file: change it when either changes
+constexpr std::string_view version = "lodestir bvh 3";  // of the builder and the file: change it when either changes
 constexpr std::size_t worthwhile = 16384;               // triangles: below, building is as fast as reading
 
 struct Header {
-    Hash content;  ///< of all that follows: a damaged file would send rays anywhere
+    Hash content;  ///< of what follows: a damaged file would send rays anywhere
     glm::vec3 gridBase, gridScale;
     std::uint32_t root;
     std::uint32_t nodes, triangles;
@@ -29,47 +29,31 @@ Hash keyOf(const BvhInput& input) {
     return hash;
 }
 
-template <class T> void append(std::vector<std::byte>& out, std::span<const T> values) {
-    const auto bytes = std::as_bytes(values);
-    out.insert(out.end(), bytes.begin(), bytes.end());
-}
-
-/// Moves the first `count` values of the bytes into a vector and drops them from the bytes.
-template <class T> std::vector<T> take(std::span<const std::byte>& bytes, std::size_t count) {
-    std::vector<T> values(count);
-    std::memcpy(values.data(), bytes.data(), count * sizeof(T));
-    bytes = bytes.subspan(count * sizeof(T));
-    return values;
+Hash contentOf(const Header& header, const Bvh& bvh) {
+    Hash hash;
+    hash.addValue(header.gridBase).addValue(header.gridScale).addValue(header.root);
+    return hash.add(std::as_bytes(std::span(bvh.nodes))).add(std::as_bytes(std::span(bvh.order)));
 }
 
 void writeBvh(const Path& path, const Bvh& bvh) {
     Header header{.gridBase = bvh.gridBase, .gridScale = bvh.gridScale, .root = bvh.root, .nodes = std::uint32_t(bvh.nodes.size()),
-                  .triangles = std::uint32_t(bvh.triangles.size())};
-    std::vector<std::byte> bytes(sizeof header);
-    append(bytes, std::span(bvh.nodes));
-    append(bytes, std::span(bvh.triangles));
-    append(bytes, std::span(bvh.order));
-    std::memcpy(bytes.data(), &header, sizeof header);
-    header.content = Hash().add(std::span(bytes).subspan(sizeof(Hash)));
-    std::memcpy(bytes.data(), &header, sizeof header);
-    writeFile(path, bytes);
+                  .triangles = std::uint32_t(bvh.order.size())};
+    header.content = contentOf(header, bvh);
+    const std::array parts{std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(bvh.nodes)), std::as_bytes(std::span(bvh.order))};
+    writeParts(path, parts);
 }
 
 std::optional<Bvh> readBvh(const Path& path) {
     if (!isFile(path)) return {};
-    const std::vector<std::byte> file = readBytes(path);
-    std::span<const std::byte> bytes = file;
+    FileReader file(path);
     Header header;
-    if (bytes.size() < sizeof header) return {};
-    std::memcpy(&header, bytes.data(), sizeof header);
-    const std::size_t triangleBytes = sizeof(BvhTriangle) + sizeof(std::uint32_t);
-    if (bytes.size() != sizeof header + header.nodes * sizeof(BvhNode) + header.triangles * triangleBytes) return {};
-    if (header.content != Hash().add(bytes.subspan(sizeof(Hash)))) return {};
-    bytes = bytes.subspan(sizeof header);
+    if (!file.read(std::as_writable_bytes(std::span(&header, 1)))) return {};
+    if (file.size() != sizeof header + header.nodes * sizeof(BvhNode) + header.triangles * sizeof(std::uint32_t)) return {};
     Bvh bvh{.gridBase = header.gridBase, .gridScale = header.gridScale, .root = header.root};
-    bvh.nodes = take<BvhNode>(bytes, header.nodes);
-    bvh.triangles = take<BvhTriangle>(bytes, header.triangles);
-    bvh.order = take<std::uint32_t>(bytes, header.triangles);
+    bvh.nodes.resize(header.nodes);
+    bvh.order.resize(header.triangles);
+    const bool whole = file.read(std::as_writable_bytes(std::span(bvh.nodes))) && file.read(std::as_writable_bytes(std::span(bvh.order)));
+    if (!whole || header.content != contentOf(header, bvh)) return {};
     return bvh;
 }
 

@@ -28,7 +28,6 @@ public:
     /// Each mesh by itself, as Frame::objects says.
     FrameWorld objects();
     SceneRecords records() const;
-    std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
 
 private:
     struct Shapes;
@@ -42,7 +41,7 @@ private:
 
     const gpu::Device& device_;
     const Scene& scene_;
-    std::unique_ptr<Geometry> geometry_;  ///< as moving_ has it
+    std::shared_ptr<Geometry> geometry_;    ///< as moving_ has it
     std::shared_ptr<const Shapes> shapes_;  ///< null where meshes deform: each pose has its own
     std::shared_ptr<const Fixed> fixed_;
     std::unique_ptr<BottomLevels> bottomLevels_;  ///< null without ray queries
