@@ -226,7 +226,7 @@ TEST(Bvh, WideMeshesKeepWhatIsSmallInTheirMiddle) {
 }
 
 TEST(Bvh, EmptyAndDegenerateInput) {
-    const Built nothing = build({});
+    const Built nothing = build(Soup());
     EXPECT_EQ(nothing.root, bvh_ref::empty);
     EXPECT_TRUE(nothing.nodes.empty() && nothing.triangles.empty() && nothing.order.empty());
 
@@ -241,7 +241,7 @@ TEST(Bvh, EmptyAndDegenerateInput) {
     }
     for (const Soup* soup : {&points, &copies, &plane, &line}) expectSound(build(*soup), 1000);
 
-    const Bvh flat = build(plane);
+    const Built flat = build(plane);
     const TestRay down{{30000, 60000, 30000}, {0.001f, -60000, 0.001f}};
     EXPECT_EQ(walk(flat, down).t, tryAll(flat, down).t);
     EXPECT_TRUE(std::isfinite(walk(flat, down).t));

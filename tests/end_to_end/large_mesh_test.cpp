@@ -86,25 +86,24 @@ protected:
     }
 };
 
-// What a triangle takes at least: 48 bytes for rays, 20 for its corners and material, 27 of nodes, twice (the top level's stand behind those of
-// the meshes), half a vertex of 48 bytes on the device and of 24 in the scene, and 16 in the scene. While a tree is built there are no arrays of the
-// device yet, but 32 bytes each for references and binary nodes.
+// What a triangle takes: on the device 48 bytes for rays, 20 for its corners, material and light, some 10 of nodes and half a vertex of 48; in the
+// scene 16 and half a vertex of 24. That is 130; while these are filled 4 of order and the nodes once more (docs/rays.md).
 TEST_F(LargeMesh, CostsFewBytesATriangleAndIsBuiltOnce) {
     constexpr std::uint32_t columns = 1000, rows = 500;
-    constexpr double triangles = 2.0 * columns * rows, most = 230;
+    constexpr double triangles = 2.0 * columns * rows, least = 130, most = 190;
     writeBall(folder / "small.glb", 8, 4);
     writeBall(folder / "large.glb", columns, rows);
     run("small.glb", "warm");  // compiles
     const double empty = peakOf(run("small.glb", "small"));
     const OrderedJson cold = run("large.glb", "cold");
     EXPECT_LT(peakOf(cold) - empty, most * triangles);
-    EXPECT_GT(peakOf(cold) - empty, 120 * triangles) << "the program holds less than what the device must have: is this measured right?";
+    EXPECT_GT(peakOf(cold) - empty, 0.8 * least * triangles) << "that is less than what it must have: is it measured right?";
 
     // A build writes its file anew.
     ASSERT_EQ(trees().size(), 1u);
     const auto written = std::filesystem::last_write_time(trees()[0]);
     const auto size = std::filesystem::file_size(trees()[0]);
-    EXPECT_LT(double(size), 40 * triangles);
+    EXPECT_LT(double(size), 20 * triangles);
     const OrderedJson warm = run("large.glb", "again");
     EXPECT_EQ(std::filesystem::last_write_time(trees()[0]), written);
     EXPECT_LT(peakOf(warm) - empty, most * triangles);

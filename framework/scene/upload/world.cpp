@@ -183,7 +183,10 @@ std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
 
 WorldBuilder::~WorldBuilder() = default;
 
-SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives.values(), geometry_->vertices.values(), geometry_->positions.values()}; }
+SceneRecords WorldBuilder::records() const {
+    const Geometry& g = *geometry_;
+    return {g.levels, g.primitives.values(), g.vertices.values(), g.positions.values()};
+}
 
 std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose& pose) {
     auto moving = std::make_shared<Moving>();

@@ -103,7 +103,8 @@ private:
         }
         Sphere sphere{low + 0.5f * (high - low), 0};
         for (const PrimitiveRecord& t : triangles)
-            for (const std::uint32_t v : {t.v0, t.v1, t.v2}) sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, glm::vec3(scene.positions[v])));
+            for (const std::uint32_t v : {t.v0, t.v1, t.v2})
+                sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, glm::vec3(scene.positions[v])));
         return sphere;
     }
 

@@ -95,14 +95,14 @@ float Mourner::hood(const glm::vec3& p) const {
     float d = ellipsoid(p, {0, 1.715f, 0.050f}, {0.128f, 0.172f, 0.165f});
     d = joined(d, rod(p, {0, 1.80f, -0.02f}, {0, 1.70f, -0.155f}, 0.075f, 0.035f), 0.10f);             // its point falls back
     d = joined(d, ellipsoid(p, {0, 1.52f, 0.01f}, {0.225f, 0.120f, 0.165f}), 0.11f);                    // cowl on the shoulders
-    d = joined(d, rod(mirrored(p), {0.09f, 1.62f, 0.13f}, {0.05f, 1.47f, 0.175f}, 0.040f, 0.030f), 0.07f);  // its hem under the chin
+    d = joined(d, rod(mirrored(p), {0.095f, 1.62f, 0.13f}, {0.012f, 1.475f, 0.185f}, 0.036f, 0.030f), 0.06f);  // its hem under the chin
     // Cloth that is drawn from the brow to the nape and sags on the shoulders.
     const glm::vec2 pole(p.z - 0.16f, p.y - 1.60f);
     const float turn = std::atan2(pole.y, -pole.x), reach = glm::length(pole);
     const float sway = noise.at({7 * p.x, 5 * p.y, 5 * p.z});
-    d -= 0.0085f * glm::smoothstep(0.05f, 0.16f, reach) * (crest(11 * turn + 2.5f * sway + 14 * std::abs(p.x), 1.4f) - 0.4f);
+    d -= 0.0120f * glm::smoothstep(0.05f, 0.16f, reach) * (crest(11 * turn + 2.5f * sway + 14 * std::abs(p.x), 1.4f) - 0.4f);
     d -= 0.0075f * glm::smoothstep(1.60f, 1.50f, p.y) * (crest(95 * (p.y + 0.55f * p.x * p.x + 0.25f * p.z) + 3 * sway, 1.3f) - 0.4f);
-    const float opening = ellipsoid(p, {0, 1.665f, 0.215f}, {0.084f, 0.135f, 0.145f});
+    const float opening = ellipsoid(p, {0, 1.662f, 0.215f}, {0.074f, 0.122f, 0.135f});
     const float rim = std::abs(opening - 0.004f) - 0.010f;  // a rolled edge
     d = joined(d, std::max(rim, d - 0.010f), 0.012f);
     return 0.8f * cut(d, opening, 0.012f);
@@ -110,9 +110,9 @@ float Mourner::hood(const glm::vec3& p) const {
 
 float Mourner::face(const glm::vec3& p) const {
     const glm::vec3 q = mirrored(p);
-    float d = ellipsoid(p, {0, 1.675f, 0.095f}, {0.070f, 0.105f, 0.085f});
+    float d = ellipsoid(p, {0, 1.678f, 0.092f}, {0.071f, 0.105f, 0.088f});
     d = joined(d, ellipsoid(p, {0, 1.605f, 0.130f}, {0.038f, 0.034f, 0.038f}), 0.05f);                           // chin
-    d = cut(d, ellipsoid(q, {0.031f, 1.695f, 0.183f}, {0.022f, 0.015f, 0.022f}), 0.022f);                       // sockets
+    d = cut(d, ellipsoid(q, {0.031f, 1.694f, 0.190f}, {0.022f, 0.014f, 0.022f}), 0.020f);                       // sockets
     d = joined(d, ellipsoid(q, {0.030f, 1.692f, 0.153f}, {0.016f, 0.012f, 0.014f}), 0.004f);                     // lids, lowered
     d = joined(d, rod(p, {0, 1.712f, 0.170f}, {0, 1.660f, 0.196f}, 0.008f, 0.012f), 0.022f);                     // nose
     d = joined(d, ellipsoid(q, {0.011f, 1.657f, 0.188f}, {0.009f, 0.007f, 0.010f}), 0.008f);

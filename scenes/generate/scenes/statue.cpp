@@ -11,7 +11,7 @@ namespace lodestir::generate {
 
 namespace {
 
-constexpr float step = 0.003f;  ///< metres
+constexpr float step = 0.0011f;  ///< metres
 
 /// A rectangle through its upper-left corner, with a picture that repeats after `repeat` metres.
 Mesh slab(const glm::vec3& corner, const glm::vec3& right, const glm::vec3& down, float repeat) {
