@@ -124,16 +124,19 @@ private:
         std::vector<std::uint32_t> roots;
         std::vector<Bvh> meshes;
         for (const Triangles& mesh : scene_.meshes) {
-            meshes.push_back(buildBvh({mesh.positions, mesh.triangles}));
-            roots.insert(roots.end(), LEVELS, appendNodes(meshes.back(), nodes, triangles.size()));
-            triangles.insert(triangles.end(), meshes.back().triangles.begin(), meshes.back().triangles.end());
+            const BvhInput input{mesh.positions, mesh.triangles};
+            meshes.push_back(buildBvh(input));
+            const std::size_t first = triangles.size();
+            roots.insert(roots.end(), LEVELS, appendNodes(meshes.back(), nodes, first));
+            triangles.resize(first + meshes.back().order.size());
+            placeTriangles(input, meshes.back(), std::span(triangles).subspan(first));
         }
         std::vector<Box> boxes;
         std::vector<TraceInstance> instances;
         std::vector<std::uint32_t> levels;
         for (const Placed& placed : scene_.instances) {
             const Bvh& mesh = meshes[placed.mesh];
-            boxes.push_back(boundsOf(mesh, placed.toWorld));
+            boxes.push_back(transformed(boundsOf(scene_.meshes[placed.mesh].positions), placed.toWorld));
             instances.push_back(traceInstance(placed.mesh, {mesh.gridBase, mesh.gridScale}, placed.toWorld));
             levels.push_back(std::uint32_t(levels.size() % LEVELS));
         }

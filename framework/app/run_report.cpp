@@ -6,9 +6,22 @@
 
 #include <numeric>
 
+#include <sys/resource.h>
+
 namespace lodestir {
 
 using OrderedJson = nlohmann::ordered_json;
+
+namespace {
+
+/// The most memory that the process ever had.
+std::size_t peakBytes() {
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    return std::size_t(use.ru_maxrss) * 1024;
+}
+
+}  // namespace
 
 OrderedJson frameJson(const FrameReport& frame, const std::map<std::string, double>& metrics, bool countSteps) {
     OrderedJson passes = OrderedJson::object();
@@ -57,7 +70,9 @@ OrderedJson runJson(Session& session, double totalMilliseconds) {
             {"seed", session.graph().description.seed},
             {"frames", OrderedJson::array()},
             {"setup", {{"ms", totalMilliseconds}, {"sceneMs", session.sceneMilliseconds()}, {"shaders", shaders}}},
-            {"memory", {{"portBytes", session.runner().memoryBytes()}, {"bytesPerPixel", double(session.runner().memoryBytes()) / (double(size.x) * size.y)}}}};
+            {"memory", {{"portBytes", session.runner().memoryBytes()},
+                        {"bytesPerPixel", double(session.runner().memoryBytes()) / (double(size.x) * size.y)},
+                        {"peakBytes", peakBytes()}}}};
 }
 
 }  // namespace lodestir

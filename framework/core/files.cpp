@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reads files whole and writes them aside first, so that no reader ever sees half a file.
 #include <framework/core/error.h>
-#include <framework/core/files.h>
+#include <framework/core/file_parts.h>
 #include <framework/core/is_file.h>
 
 #include <algorithm>
@@ -148,10 +148,10 @@ bool isDevice(const Path& target) {
 /// Writes into a file that has no name until it is whole. Between a name beside the target and the target's own a writer may be killed: that
 /// name is one for all writers, so that there is never more than one scrap, and the next writer takes it away. False where the file system has
 /// no such files, or where another writer has just taken this one's away.
-bool writeNameless(const Path& target, std::span<const std::byte> bytes) {
+bool writeNameless(const Path& target, std::span<const std::span<const std::byte>> parts) {
     File file(target.has_parent_path() ? target.parent_path() : Path("."), O_WRONLY | O_TMPFILE, target);
     if (!file.isOpen()) return false;
-    file.write(bytes);
+    for (const auto& part : parts) file.write(part);
     if (file.name(target)) return true;
     const Path aside = nameAside(target, "new");
     while (!file.name(aside))
@@ -181,6 +181,27 @@ std::string readText(const Path& path) { return readWhole<std::string>(path); }
 
 std::vector<std::byte> readBytes(const Path& path) { return readWhole<std::vector<std::byte>>(path); }
 
+struct FileReader::File : lodestir::File {
+    using lodestir::File::File;
+};
+
+FileReader::FileReader(const Path& path) : file_(std::make_unique<File>(path, O_RDONLY)) {
+    if (!file_->isOpen()) file_->fail("cannot be read", errno);
+}
+
+FileReader::~FileReader() = default;
+
+std::size_t FileReader::size() const { return file_->size(); }
+
+bool FileReader::read(std::span<std::byte> bytes) {
+    while (!bytes.empty()) {
+        const std::size_t count = file_->read({reinterpret_cast<char*>(bytes.data()), bytes.size()});
+        if (count == 0) return false;
+        bytes = bytes.subspan(count);
+    }
+    return true;
+}
+
 bool isSameFile(const Path& a, const Path& b) {
     std::error_code absent;
     return std::filesystem::equivalent(a, b, absent);
@@ -201,16 +222,18 @@ void writeAside(const Path& path, const std::function<void(const Path& aside)>& 
     }
 }
 
-void writeFile(const Path& path, std::span<const std::byte> bytes) {
+void writeFile(const Path& path, std::span<const std::byte> bytes) { writeParts(path, std::span(&bytes, 1)); }
+
+void writeParts(const Path& path, std::span<const std::span<const std::byte>> parts) {
     const Path target = followed(path);
     if (!isDevice(target)) {
         makeFolder(target.parent_path());
-        if (writeNameless(target, bytes)) return;
+        if (writeNameless(target, parts)) return;
     }
     writeAside(path, [&](const Path& aside) {
         File file(aside, O_WRONLY | O_CREAT | O_TRUNC, path);
         if (!file.isOpen()) file.fail("cannot be written", errno);
-        file.write(bytes);
+        for (const auto& part : parts) file.write(part);
         file.close();
     });
 }

@@ -3,6 +3,7 @@
 #include <framework/gpu/buffer.h>
 
 #include <framework/core/error.h>
+#include <framework/gpu/array.h>
 #include <framework/gpu/commands.h>
 #include <framework/gpu/heap.h>
 
@@ -107,14 +108,7 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 
 Buffer makeBuffer(const Device& device, std::span<const std::byte> bytes, const std::string& name) {
     Buffer buffer(device, bytes.size(), Memory::device, name);
-    if (bytes.empty()) return buffer;
-    if (buffer.mapped()) {
-        std::memcpy(buffer.mapped(), bytes.data(), bytes.size());
-        return buffer;
-    }
-    const Buffer staging(device, bytes.size(), Memory::upload, name + " (staging)");
-    std::memcpy(staging.mapped(), bytes.data(), bytes.size());
-    runOnce(device, [&](Commands& commands) { commands.copy(staging, 0, buffer, 0, bytes.size()); });
+    fillBuffer(device, buffer, bytes);
     return buffer;
 }
 

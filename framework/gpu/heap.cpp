@@ -39,6 +39,7 @@ void Heap::reserve() {
     reserved_ = place;
     begin_ = reinterpret_cast<void*>((reinterpret_cast<std::uintptr_t>(place) + alignment - 1) / alignment * alignment);
     if (mprotect(begin_, size, PROT_READ | PROT_WRITE) != 0) throw Error("no memory for shaders");
+    madvise(begin_, size, MADV_HUGEPAGE);  // rays jump about in it; it is only a wish
 }
 
 void Heap::makePool() {

@@ -13,7 +13,7 @@ struct SceneRecords {
     std::span<const LevelRecord> meshLevels;  ///< of mesh m at level l: m * LEVELS + l
     std::span<const PrimitiveRecord> primitives;
     std::span<const VertexRecord> vertices;
-    std::span<const glm::vec3> positions;  ///< of the vertices, object space, in the pose that was last asked for
+    std::span<const glm::vec4> positions;  ///< of the vertices, object space, w 0, in the pose that was last asked for
 };
 
 }  // namespace lodestir

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Normals made from positions, and the rules of texture coordinates.
+#include <framework/core/tasks.h>
 #include <framework/scene/shading_frame.h>
 
 #include <cmath>
+#include <mutex>
 
 namespace lodestir {
 namespace {
@@ -74,26 +76,28 @@ void makeFlatNormals(MeshLevel& level) {
 }
 
 std::size_t repairNormals(MeshLevel& level) {
-    std::size_t made = 0;
-    std::vector<glm::dvec3> around;
-    for (std::size_t v = 0; v < level.normals.size(); ++v) {
-        glm::vec3& normal = level.normals[v];
-        const double length = glm::length(glm::dvec3(normal));
-        if (std::isfinite(length) && length > 1e-6) {
-            normal = glm::vec3(glm::dvec3(normal) / length);
-            continue;
-        }
-        if (around.empty()) {
-            around.resize(level.positions.size(), glm::dvec3(0));
-            for (const glm::uvec3& t : level.triangles) {
-                const glm::dvec3 area = areaVector(level, t);
-                for (int c = 0; c < 3; ++c) around[t[c]] += area;
+    std::vector<std::size_t> broken;
+    std::mutex mutex;
+    parallelFor(level.normals.size(), 65536, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            glm::vec3& normal = level.normals[v];
+            const double length = glm::length(glm::dvec3(normal));
+            if (std::isfinite(length) && length > 1e-6) {
+                normal = glm::vec3(glm::dvec3(normal) / length);
+                continue;
             }
+            const std::lock_guard lock(mutex);
+            broken.push_back(v);
         }
-        normal = normalizeOr(around[v], {0, 0, 1});
-        ++made;
+    });
+    if (broken.empty()) return 0;
+    std::vector<glm::dvec3> around(level.positions.size(), glm::dvec3(0));
+    for (const glm::uvec3& t : level.triangles) {
+        const glm::dvec3 area = areaVector(level, t);
+        for (int c = 0; c < 3; ++c) around[t[c]] += area;
     }
-    return made;
+    for (const std::size_t v : broken) level.normals[v] = normalizeOr(around[v], {0, 0, 1});
+    return broken.size();
 }
 
 }  // namespace lodestir

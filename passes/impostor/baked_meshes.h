@@ -35,13 +35,14 @@ inline Sphere sphereAround(const SceneRecords& scene, std::uint32_t mesh) {
     glm::vec3 low(std::numeric_limits<float>::max()), high = -low;
     for (const PrimitiveRecord& t : triangles) {
         for (const std::uint32_t v : {t.v0, t.v1, t.v2}) {
-            low = glm::min(low, scene.positions[v]);
-            high = glm::max(high, scene.positions[v]);
+            low = glm::min(low, glm::vec3(scene.positions[v]));
+            high = glm::max(high, glm::vec3(scene.positions[v]));
         }
     }
     Sphere sphere{low + 0.5f * (high - low), 0};
     for (const PrimitiveRecord& t : triangles)
-        for (const std::uint32_t v : {t.v0, t.v1, t.v2}) sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, scene.positions[v]));
+        for (const std::uint32_t v : {t.v0, t.v1, t.v2})
+            sphere.radius = std::max(sphere.radius, glm::distance(sphere.center, glm::vec3(scene.positions[v])));
     return sphere;
 }
 

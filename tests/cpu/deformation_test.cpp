@@ -189,11 +189,11 @@ TEST(Deformation, GeometryFollowsThePose) {
         geometry.pose(scene, {scene.nodeMatrices(0), {{weight}}});
         const BvhGrid grid = geometry.grids[0];
         for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-            const PrimitiveRecord& corners = geometry.primitives[t];
+            const PrimitiveRecord& corners = geometry.primitives.values()[t];
             const glm::vec3 v0 = soup.positions[corners.v0] + weight * target.positions[corners.v0];
             const glm::vec3 v1 = soup.positions[corners.v1] + weight * target.positions[corners.v1];
-            expectNear(grid.origin() + grid.scale * geometry.triangles[t].v0, v0, 1e-4f);
-            expectNear(grid.scale * geometry.triangles[t].e1, v1 - v0, 1e-4f);
+            expectNear(grid.origin() + grid.scale * geometry.triangles.values()[t].v0, v0, 1e-4f);
+            expectNear(grid.scale * geometry.triangles.values()[t].e1, v1 - v0, 1e-4f);
         }
         std::size_t leaves = 0;
         const std::function<Box(std::uint32_t)> content = [&](std::uint32_t reference) {
@@ -203,7 +203,7 @@ TEST(Deformation, GeometryFollowsThePose) {
                 const std::uint32_t first = reference & (bvh_ref::masked - 1), count = (reference >> 28 & 3) + 1;
                 leaves += count;
                 for (std::uint32_t t = first; t < first + count; ++t) {
-                    const BvhTriangle& triangle = geometry.triangles[t];
+                    const BvhTriangle& triangle = geometry.triangles.values()[t];
                     const glm::vec3 v0 = triangle.v0 - grid.boxes();  // boxes count from the grid's base
                     for (const glm::vec3& p : {v0, v0 + triangle.e1, v0 + triangle.e2}) add(p, p);
                 }

@@ -118,17 +118,18 @@ TEST(CumulativeTable, NumbersKeepTheirEntryWhereWeightsHardlyChange) {
     EXPECT_LT(others, 100);
 }
 
-std::vector<std::span<const glm::vec3>> positionsOf(const Scene& scene) {
-    std::vector<std::span<const glm::vec3>> positions;
-    for (const Mesh& mesh : scene.meshes) positions.push_back(mesh.levels[0].positions);
-    return positions;
+LightList lightsOf(const Scene& scene, const std::vector<MeshEmitters>& emitters, float radius) {
+    std::vector<std::vector<glm::vec4>> positions;
+    for (const Mesh& mesh : scene.meshes)
+        for (auto& list = positions.emplace_back(); const glm::vec3& p : mesh.levels[0].positions) list.emplace_back(p, 0);
+    return listLights(scene, emitters, std::vector<std::span<const glm::vec4>>(positions.begin(), positions.end()), std::vector{glm::mat4(1)}, radius);
 }
 
 // Power is a half of the choice, the kind of light the other half: here one kind, so the two triangles share evenly.
 TEST(LightList, TrianglesByPower) {
     const Scene scene = squareScene(3);
     const std::vector<MeshEmitters> emitters{squareEmitters()};
-    const LightList list = listLights(scene, emitters, positionsOf(scene), std::vector{glm::mat4(1)}, 1);
+    const LightList list = lightsOf(scene, emitters, 1);
     ASSERT_EQ(list.lights.size(), 2u);
     EXPECT_EQ(list.firstLight[0], 0u);
     EXPECT_EQ(list.environmentLight, NONE);
@@ -144,7 +145,7 @@ TEST(LightList, NoKindStarves) {
     scene.environment.radiance = {glm::vec3(1)};
     scene.lights.push_back({.name = "lamp", .type = LightType::point, .intensity = 1e-5f, .node = 0});
     const std::vector<MeshEmitters> emitters{squareEmitters()};
-    const LightList list = listLights(scene, emitters, positionsOf(scene), std::vector{glm::mat4(1)}, 10);
+    const LightList list = lightsOf(scene, emitters, 10);
     ASSERT_EQ(list.lights.size(), 4u);
     EXPECT_EQ(list.environmentLight, 3u);
     EXPECT_NEAR(list.lights[0].pmf + list.lights[1].pmf, 1.0 / 6, 1e-3);
@@ -154,7 +155,7 @@ TEST(LightList, NoKindStarves) {
 
 TEST(LightList, BlackThingsAreNoLights) {
     Scene scene = squareScene(0);
-    const LightList list = listLights(scene, std::vector<MeshEmitters>(1), positionsOf(scene), std::vector{glm::mat4(1)}, 1);
+    const LightList list = lightsOf(scene, std::vector<MeshEmitters>(1), 1);
     EXPECT_TRUE(list.lights.empty());
     EXPECT_EQ(list.firstLight[0], NONE);
 }

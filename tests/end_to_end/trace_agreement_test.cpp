@@ -45,17 +45,19 @@ public:
             std::vector<std::uint32_t> masks(soup.triangles.size(), 0);
             for (std::size_t i = 0; masked != 0 && i < masks.size(); i += masked) masks[i] = 1 + std::uint32_t(i / masked % 2) + 1;
             for (std::size_t i = 0; panes != 0 && i < masks.size(); i += panes) masks[i] = 3 + std::uint32_t(i / panes % 3) + 1;
-            const Bvh bvh = buildBvh({soup.positions, soup.triangles, masks, box});
+            const BvhInput input{soup.positions, soup.triangles, masks, box};
+            const Bvh bvh = buildBvh(input);
             const auto firstTriangle = std::uint32_t(triangles_.size());
             roots_.push_back(appendNodes(bvh, nodes_, firstTriangle));
-            meshLevels_.push_back({firstTriangle, std::uint32_t(bvh.triangles.size()), 0});
-            triangles_.insert(triangles_.end(), bvh.triangles.begin(), bvh.triangles.end());
+            meshLevels_.push_back({firstTriangle, std::uint32_t(bvh.order.size()), 0});
+            triangles_.resize(firstTriangle + bvh.order.size());
+            placeTriangles(input, bvh, std::span(triangles_).subspan(firstTriangle));
             for (const std::uint32_t t : bvh.order) {
                 const auto first = std::uint32_t(3 * primitives_.size());
                 primitives_.push_back({first, first + 1, first + 2, masks[t] == 0 ? 0 : masks[t] - 1});
                 corners_.push_back({soup.positions[soup.triangles[t].x], soup.positions[soup.triangles[t].y], soup.positions[soup.triangles[t].z]});
             }
-            mesh.push_back({bvh, firstTriangle});
+            mesh.push_back({bvh, boundsOf(soup.positions), firstTriangle});
         }
     }
     void place(std::uint32_t mesh, const glm::mat4& toWorld, std::uint32_t level = 0) { placed_.push_back({mesh, level, toWorld}); }
@@ -69,10 +71,7 @@ public:
         std::vector<uint> levels;
         for (const Placed& p : placed_) {
             Box box;
-            for (const Level& level : meshes_[p.mesh]) {
-                const Box b = boundsOf(level.bvh, p.toWorld);
-                box = {glm::min(box.low, b.low), glm::max(box.high, b.high)};
-            }
+            for (const Level& level : meshes_[p.mesh]) box.add(transformed(level.box, p.toWorld));
             boxes.push_back(box);
             const Bvh& bvh = meshes_[p.mesh][0].bvh;
             instances.push_back(traceInstance(p.mesh, {bvh.gridBase, bvh.gridScale}, p.toWorld));
@@ -143,7 +142,7 @@ public:
             const glm::dvec3 origin(toObject * glm::dvec4(ray.origin, 1)), direction(toObject * glm::dvec4(ray.direction, 0));
             const auto& mesh = meshes_[placed_[i].mesh];
             const Level& level = mesh[std::min<std::size_t>(placed_[i].level, mesh.size() - 1)];
-            for (std::uint32_t t = level.firstTriangle; t < level.firstTriangle + level.bvh.triangles.size(); ++t) {
+            for (std::uint32_t t = level.firstTriangle; t < level.firstTriangle + level.bvh.order.size(); ++t) {
                 if (primitives_[t].material == 1) continue;
                 const glm::dvec3 v0(corners_[t][0]), v1(corners_[t][1]), v2(corners_[t][2]);
                 const double distance = meet<double>(origin, direction, v0, v1 - v0, v2 - v0);
@@ -164,6 +163,7 @@ public:
 private:
     struct Level {
         Bvh bvh;
+        Box box;
         std::uint32_t firstTriangle;
     };
     /// The driver's structures over the same triangles, of the levels that are shown.

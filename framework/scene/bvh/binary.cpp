@@ -66,8 +66,9 @@ template <class Sum, class Body> Sum gather(std::span<const Reference> reference
 Extent extentOf(std::span<const Reference> references) {
     return gather<Extent>(references, [](std::span<const Reference> chunk, Extent& sum) {
         for (const Reference& r : chunk) {
-            sum.bounds.add(r.bounds);
-            const Lanes c = center(r.bounds);
+            const Bounds bounds = r.bounds();
+            sum.bounds.add(bounds);
+            const Lanes c = center(bounds);
             sum.centers.add({c, c});
         }
     });
@@ -124,20 +125,20 @@ std::size_t sweep(std::span<Reference> references) {
     for (int axis = 0; axis < 3; ++axis) {
         for (std::size_t i = 0; i < n; ++i) {  // insertion sort: stable, and n is tiny
             std::size_t place = i;
-            const float key = center(references[i].bounds)[axis];
-            for (; place > 0 && center(sorted[place - 1].bounds)[axis] > key; --place) sorted[place] = sorted[place - 1];
+            const float key = center(references[i].bounds())[axis];
+            for (; place > 0 && center(sorted[place - 1].bounds())[axis] > key; --place) sorted[place] = sorted[place - 1];
             sorted[place] = references[i];
         }
         std::array<float, sweepLimit> right{};
         Bounds sum;
         for (std::size_t i = n - 1; i > 0; --i) {
-            sum.add(sorted[i].bounds);
+            sum.add(sorted[i].bounds());
             right[i] = sum.area() * float(n - i);
         }
         sum = {};
         bool better = false;
         for (std::size_t left = 1; left < n; ++left) {
-            sum.add(sorted[left - 1].bounds);
+            sum.add(sorted[left - 1].bounds());
             const float cost = sum.area() * float(left) + right[left];
             if (cost < bestCost) {
                 bestCost = cost;
@@ -159,9 +160,10 @@ std::size_t split(std::span<Reference> references, const Extent& extent, bool he
         const Binning binning(extent.centers);
         const Bins bins = gather<Bins>(references, [&](std::span<const Reference> chunk, Bins& sum) {
             for (const Reference& r : chunk) {
-                const auto bin = binning(r.bounds);
+                const Bounds bounds = r.bounds();
+                const auto bin = binning(bounds);
                 for (int axis = 0; axis < 3; ++axis) {
-                    sum[axis][bin[axis]].bounds.add(r.bounds);
+                    sum[axis][bin[axis]].bounds.add(bounds);
                     ++sum[axis][bin[axis]].count;
                 }
             }
@@ -169,7 +171,7 @@ std::size_t split(std::span<Reference> references, const Extent& extent, bool he
         const Split best = bestSplit(bins);
         if (best.axis >= 0) {
             const auto middle = std::partition(references.begin(), references.end(),
-                                               [&](const Reference& r) { return binning(r.bounds)[best.axis] <= best.bin; });
+                                               [&](const Reference& r) { return binning(r.bounds())[best.axis] <= best.bin; });
             return std::size_t(middle - references.begin());
         }
     }
@@ -182,22 +184,14 @@ struct Builder {
     int maxDepth;
 
     void build(std::size_t node, std::size_t first, std::size_t count, int depth) const {
+        if (count == 1) return;
         const std::span<Reference> mine = references.subspan(first, count);
-        BinaryNode& n = nodes[node];
-        n.first = std::uint32_t(first);
-        n.count = std::uint32_t(count);
-        n.leftCount = 0;
-        if (count == 1) {
-            n.bounds = mine[0].bounds;
-            return;
-        }
         const Extent extent = extentOf(mine);
-        n.bounds = extent.bounds;
         // The worst split leaves count - 1 on one side, a level deeper; halves must still fit below.
         const std::size_t left = split(mine, extent, depth + 1 + int(std::bit_width(count - 1)) <= maxDepth);
-        n.leftCount = std::uint32_t(left);
+        nodes[node] = {extent.bounds, std::uint32_t(left)};
         const auto buildLeft = [&] { build(node + 1, first, left, depth + 1); };
-        const auto buildRight = [&] { build(node + 2 * left, first + left, count - left, depth + 1); };
+        const auto buildRight = [&] { build(node + left, first + left, count - left, depth + 1); };
         if (count >= parallelNodes) {
             parallelInvoke(buildLeft, buildRight);
         } else {
@@ -210,9 +204,7 @@ struct Builder {
 }  // namespace
 
 BinaryTree buildBinaryTree(std::span<Reference> references, int maxDepth) {
-    BinaryTree tree;
-    tree.size = 2 * references.size() - 1;
-    tree.nodes = std::make_unique_for_overwrite<BinaryNode[]>(tree.size);
+    BinaryTree tree{references, std::make_unique_for_overwrite<BinaryNode[]>(references.size() - 1)};
     Builder{references, tree.nodes.get(), maxDepth}.build(0, 0, references.size(), 0);
     return tree;
 }

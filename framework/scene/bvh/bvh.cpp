@@ -10,15 +10,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace lodestir {
 namespace {
 
-using bvh::BinaryNode;
 using bvh::BinaryTree;
 using bvh::Bounds;
 using bvh::Lanes;
 using bvh::Reference;
+using bvh::Subtree;
 
 // Cost of testing one triangle, in visits to a node, as measured for packets on lavapipe (docs/rays.md).
 constexpr float triangleCost = 0.3f;
@@ -52,88 +53,105 @@ struct Grid {
     }
 };
 
-/// The least cost of a binary subtree that becomes 1, 2 or 3 children of a wide node, and how: Ylitie, Karras, Laine, "Efficient incoherent
-/// ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1.
-struct Choice {
-    static constexpr std::uint8_t fewer = 0;  // the best for `roots` children is the best for one child less
-
-    std::array<float, 4> cost{};           // [1..3] children
-    std::array<std::uint8_t, 5> left{};    // [2..4] children: how many of them the left subtree gets, or `fewer`; [1]: see `leaf`
-    bool leaf = false;                     // as one child: a leaf, not a node
-};
-
+/// Where binary subtrees become leaves, and where nodes of the wide tree, at the least expected cost of a ray: Ylitie, Karras, Laine, "Efficient
+/// incoherent ray traversal on GPUs through compressed wide BVHs", 2017, section 3.1.
 class Collapse {
 public:
-    Collapse(const BinaryTree& tree, std::uint32_t maxLeaf) : tree_(tree), maxLeaf_(maxLeaf), choices_(tree.size) {
-        choose(0);
+    Collapse(const BinaryTree& tree, std::uint32_t maxLeaf)
+        : tree_(tree), maxLeaf_(maxLeaf), choices_(std::make_unique_for_overwrite<Choice[]>(tree.references.size())) {
+        nodes_ = choose(tree.root()).nodes[1];
     }
 
-    bool leaf(std::size_t node) const { return choices_[node].leaf; }
+    std::size_t nodes() const { return nodes_; }
+    bool leaf(const Subtree& s) const { return s.leaf() || choices_[s.node].leaf; }
 
-    /// The binary nodes that become the children of the wide node made of `node`.
-    int children(std::size_t node, std::array<std::size_t, 4>& out) const {
-        const int left = choices_[node].left[4];
+    /// The subtrees that become the children of the wide node made of one.
+    int children(const Subtree& s, std::array<Subtree, 4>& out) const {
+        const int left = choices_[s.node].left4;
         int count = 0;
-        gather(BinaryTree::left(node), left, out, count);
-        gather(tree_.right(node), 4 - left, out, count);
+        gather(tree_.left(s), left, out, count);
+        gather(tree_.right(s), 4 - left, out, count);
         return count;
     }
 
 private:
-    void choose(std::size_t node) {
-        const BinaryNode& n = tree_.nodes[node];
-        Choice& c = choices_[node];
-        const float area = n.bounds.area();
-        const float leafCost = n.count <= maxLeaf_ ? area * float(n.count) * triangleCost : std::numeric_limits<float>::infinity();
-        if (n.leaf()) {
-            c.leaf = true;
-            c.cost.fill(leafCost);
-            return;
-        }
-        const std::size_t l = BinaryTree::left(node), r = tree_.right(node);
-        if (2 * std::size_t(n.count) > parallelNodes) {
-            parallelInvoke([&] { choose(l); }, [&] { choose(r); });
-        } else {
-            choose(l);
-            choose(r);
-        }
-        const auto distribute = [&](int roots) {
-            float best = std::numeric_limits<float>::infinity();
-            for (int left = 1; left < roots; ++left) {
-                const float cost = choices_[l].cost[left] + choices_[r].cost[roots - left];
-                if (left == 1 || cost < best) {
-                    best = cost;
-                    c.left[roots] = std::uint8_t(left);
-                }
-            }
+    /// How a subtree best becomes 2, 3 or 4 children of a wide node: how many of them its left side gets, or that the best for one child less is
+    /// best for this many, too.
+    struct Choice {
+        static constexpr std::uint8_t fewer = 0;
+
+        std::uint8_t leaf : 1;  // as one child: a leaf, not a node
+        std::uint8_t left2 : 2, left3 : 2, left4 : 2;
+    };
+    /// By number of children, 1 to 3.
+    struct Best {
+        std::array<float, 4> cost;
+        std::array<std::uint32_t, 4> nodes;  // wide ones
+    };
+
+    Best choose(const Subtree& s) {
+        const float area = tree_.boundsOf(s).area();
+        const float leafCost = s.count <= maxLeaf_ ? area * float(s.count) * triangleCost : std::numeric_limits<float>::infinity();
+        Best best{};
+        if (s.leaf()) {
+            best.cost.fill(leafCost);
             return best;
-        };
-        const float nodeCost = area + distribute(4);
-        c.leaf = leafCost <= nodeCost;
-        c.cost[1] = std::min(leafCost, nodeCost);
-        for (int roots = 2; roots <= 3; ++roots) {
-            c.cost[roots] = distribute(roots);
-            if (c.cost[roots - 1] <= c.cost[roots]) {
-                c.cost[roots] = c.cost[roots - 1];
-                c.left[roots] = Choice::fewer;
-            }
         }
+        const Subtree l = tree_.left(s), r = tree_.right(s);
+        Best left, right;
+        if (2 * std::size_t(s.count) > parallelNodes) {
+            parallelInvoke([&] { left = choose(l); }, [&] { right = choose(r); });
+        } else {
+            left = choose(l);
+            right = choose(r);
+        }
+        struct Distribution {
+            int left;
+            float cost;
+            std::uint32_t nodes;
+        };
+        const auto distribute = [&](int roots) {
+            Distribution found{1, left.cost[1] + right.cost[roots - 1], left.nodes[1] + right.nodes[roots - 1]};
+            for (int n = 2; n < roots; ++n) {
+                const float cost = left.cost[n] + right.cost[roots - n];
+                if (cost < found.cost) found = {n, cost, left.nodes[n] + right.nodes[roots - n]};
+            }
+            return found;
+        };
+        Choice& c = choices_[s.node];
+        const Distribution four = distribute(4), three = distribute(3), two = distribute(2);
+        const float nodeCost = area + four.cost;
+        c.left4 = std::uint8_t(four.left);
+        c.leaf = leafCost <= nodeCost;
+        best.cost[1] = std::min(leafCost, nodeCost);
+        best.nodes[1] = c.leaf ? 0 : 1 + four.nodes;
+        const auto take = [&](int roots, const Distribution& d) -> std::uint8_t {
+            const bool isFewer = best.cost[roots - 1] <= d.cost;
+            best.cost[roots] = isFewer ? best.cost[roots - 1] : d.cost;
+            best.nodes[roots] = isFewer ? best.nodes[roots - 1] : d.nodes;
+            return isFewer ? Choice::fewer : std::uint8_t(d.left);
+        };
+        c.left2 = take(2, two);
+        c.left3 = take(3, three);
+        return best;
     }
 
-    void gather(std::size_t node, int roots, std::array<std::size_t, 4>& out, int& count) const {
-        const Choice& c = choices_[node];
-        while (roots > 1 && (tree_.nodes[node].leaf() || c.left[roots] == Choice::fewer)) --roots;
+    void gather(const Subtree& s, int roots, std::array<Subtree, 4>& out, int& count) const {
+        const auto leftOf = [&](int n) { return s.leaf() ? Choice::fewer : n == 2 ? choices_[s.node].left2 : choices_[s.node].left3; };
+        while (roots > 1 && leftOf(roots) == Choice::fewer) --roots;
         if (roots == 1) {
-            out[count++] = node;
+            out[std::size_t(count++)] = s;
             return;
         }
-        gather(BinaryTree::left(node), c.left[roots], out, count);
-        gather(tree_.right(node), roots - c.left[roots], out, count);
+        const int left = leftOf(roots);
+        gather(tree_.left(s), left, out, count);
+        gather(tree_.right(s), roots - left, out, count);
     }
 
     const BinaryTree& tree_;
     std::uint32_t maxLeaf_;
-    std::vector<Choice> choices_;
+    std::unique_ptr<Choice[]> choices_;  // of each node
+    std::size_t nodes_ = 0;
 };
 
 /// Every second level of the binary tree: half as deep, whatever it costs.
@@ -141,15 +159,16 @@ class PairCollapse {
 public:
     PairCollapse(const BinaryTree& tree, std::uint32_t maxLeaf) : tree_(tree), maxLeaf_(maxLeaf) {}
 
-    bool leaf(std::size_t node) const { return tree_.nodes[node].count <= maxLeaf_; }
-    int children(std::size_t node, std::array<std::size_t, 4>& out) const {
+    std::size_t nodes() const { return 0; }  // not counted before they are written: few trees are so deep
+    bool leaf(const Subtree& s) const { return s.count <= maxLeaf_; }
+    int children(const Subtree& s, std::array<Subtree, 4>& out) const {
         int count = 0;
-        for (const std::size_t child : {BinaryTree::left(node), tree_.right(node)}) {
+        for (const Subtree& child : {tree_.left(s), tree_.right(s)}) {
             if (leaf(child)) {
-                out[count++] = child;
+                out[std::size_t(count++)] = child;
             } else {
-                out[count++] = BinaryTree::left(child);
-                out[count++] = tree_.right(child);
+                out[std::size_t(count++)] = tree_.left(child);
+                out[std::size_t(count++)] = tree_.right(child);
             }
         }
         return count;
@@ -167,15 +186,14 @@ public:
         : tree_(tree), shape_(shape), grid_(grid), leafReference_(leafReference), nodes_(nodes) {}
 
     /// Returns the reference to what was written, or nothing usable once a path got longer than bvhDepth nodes (see `tooDeep`).
-    std::uint32_t write(std::size_t binary, int depth = 1) {
-        const BinaryNode& source = tree_.nodes[binary];
-        if (shape_.leaf(binary)) return leafReference_(source);
+    std::uint32_t write(const Subtree& source, int depth = 1) {
+        if (shape_.leaf(source)) return leafReference_(source);
         if (depth > bvhDepth) {
             tooDeep_ = true;
             return bvh_ref::empty;
         }
-        std::array<std::size_t, 4> children;
-        const int count = shape_.children(binary, children);
+        std::array<Subtree, 4> children;
+        const int count = shape_.children(source, children);
         const std::size_t place = nodes_.size();
         nodes_.emplace_back();
         BvhNode node;
@@ -183,8 +201,8 @@ public:
             std::array<std::uint32_t, 3> box{0x0000ffffu, 0x0000ffffu, 0x0000ffffu};  // low above high: no ray enters
             std::uint32_t reference = bvh_ref::empty;
             if (int(i) < count) {
-                const Bounds& b = tree_.nodes[children[i]].bounds;
-                for (int axis = 0; axis < 3; ++axis) box[axis] = grid_.quantise(b.low[axis], b.high[axis], axis);
+                const Bounds b = tree_.boundsOf(children[i]);
+                for (int axis = 0; axis < 3; ++axis) box[std::size_t(axis)] = grid_.quantise(b.low[axis], b.high[axis], axis);
                 reference = write(children[i], depth + 1);
             }
             node.dwords[2 * i] = box[0];
@@ -211,13 +229,14 @@ template <class LeafReference>
 void writeNodes(std::span<Reference> references, const Bounds& wanted, std::uint32_t maxLeaf, const LeafReference& leafReference, Bvh& out) {
     const auto attempt = [&]<class Shape>(const BinaryTree& tree, const Shape& shape) {
         Bounds gridBounds = wanted;
-        gridBounds.add(tree.nodes[0].bounds);
+        gridBounds.add(tree.boundsOf(tree.root()));
         const Grid grid(gridBounds);
         out.gridBase = grid.base;
         out.gridScale = grid.scale;
         out.nodes.clear();
+        out.nodes.reserve(shape.nodes());
         NodeWriter writer(tree, shape, grid, leafReference, out.nodes);
-        out.root = writer.write(0);
+        out.root = writer.write(tree.root());
         return !writer.tooDeep();
     };
     // Two binary levels make one wide level at worst, so that the second attempt can't fail. It serves input made to be deep, such as
@@ -247,16 +266,24 @@ std::uint32_t relocated(std::uint32_t reference, std::size_t firstNode, std::siz
     return reference + std::uint32_t(reference < bvh_ref::leaf ? firstNode : firstTriangle);
 }
 
-std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle) {
-    if (firstTriangle + bvh.triangles.size() > maxTriangles)
+std::uint32_t placeNodes(const Bvh& bvh, std::size_t firstNode, std::size_t firstTriangle, std::span<BvhNode> out) {
+    if (firstTriangle + bvh.order.size() > maxTriangles)
         throw Error(fmt::format("the scene has more than {} triangles", maxTriangles), "show fewer levels or simpler meshes");
-    const std::size_t firstNode = nodes.size();
-    for (BvhNode node : bvh.nodes) {
-        for (std::size_t child = 9; child < 16; child += 2)
-            if (node.dwords[child] != bvh_ref::empty) node.dwords[child] = relocated(node.dwords[child], firstNode, firstTriangle);
-        nodes.push_back(node);
-    }
+    parallelFor(bvh.nodes.size(), 16384, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) {
+            BvhNode node = bvh.nodes[n];
+            for (std::size_t child = 9; child < 16; child += 2)
+                if (node.dwords[child] != bvh_ref::empty) node.dwords[child] = relocated(node.dwords[child], firstNode, firstTriangle);
+            out[n] = node;
+        }
+    });
     return relocated(bvh.root, firstNode, firstTriangle);
+}
+
+std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle) {
+    const std::size_t firstNode = nodes.size();
+    nodes.resize(firstNode + bvh.nodes.size());
+    return placeNodes(bvh, firstNode, firstTriangle, std::span(nodes).subspan(firstNode));
 }
 
 Bvh buildBvh(const BvhInput& input) {
@@ -277,35 +304,36 @@ Bvh buildBvh(const BvhInput& input) {
             references[i] = {b, std::uint32_t(i)};
         }
     });
-    std::erase_if(references, [](const Reference& r) { return r.bounds.empty(); });
+    std::erase_if(references, [](const Reference& r) { return r.bounds().empty(); });
 
     Bvh bvh;
     if (references.empty()) return bvh;
-    const auto leafReference = [&](const BinaryNode& n) {
-        const auto isMasked = [&](const Reference& r) { return !masks.empty() && masks[r.index] != 0; };
-        const bool masked = std::ranges::any_of(std::span(references).subspan(n.first, n.count), isMasked);
-        return bvh_ref::leaf | (n.count - 1) << 28 | (masked ? bvh_ref::masked : 0) | n.first;
+    const auto leafReference = [&](const Subtree& s) {
+        const auto isMasked = [&](const Reference& r) { return !masks.empty() && masks[r.index()] != 0; };
+        const bool masked = std::ranges::any_of(std::span(references).subspan(s.first, s.count), isMasked);
+        return bvh_ref::leaf | (s.count - 1) << 28 | (masked ? bvh_ref::masked : 0) | s.first;
     };
     writeNodes(std::span(references), boundsOfBox(input.grid), 4, leafReference, bvh);
-
-    bvh.order.resize(references.size());
-    bvh.triangles.resize(references.size());
-    parallelFor(references.size(), 16384, [&](std::size_t begin, std::size_t end) {
-        const glm::dvec3 base(BvhGrid{bvh.gridBase, bvh.gridScale}.origin()), scale(bvh.gridScale);
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t source = references[i].index;
-            const glm::uvec3 t = triangles[source];
-            const glm::dvec3 v0(positions[t.x]), v1(positions[t.y]), v2(positions[t.z]);
-            bvh.order[i] = source;
-            bvh.triangles[i] = {.v0 = (v0 - base) / scale, .e1 = (v1 - v0) / scale, .e2 = (v2 - v0) / scale,
-                                .mask = masks.empty() ? 0 : masks[source]};
-        }
-    });
+    bvh.order.reserve(references.size());
+    for (const Reference& r : references) bvh.order.push_back(r.index());
     return bvh;
 }
 
+void placeTriangles(const BvhInput& input, const Bvh& bvh, std::span<BvhTriangle> out) {
+    parallelFor(bvh.order.size(), 16384, [&](std::size_t begin, std::size_t end) {
+        const glm::dvec3 base(BvhGrid{bvh.gridBase, bvh.gridScale}.origin()), scale(bvh.gridScale);
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t source = bvh.order[i];
+            const glm::uvec3 t = input.triangles[source];
+            const glm::dvec3 v0(input.positions[t.x]), v1(input.positions[t.y]), v2(input.positions[t.z]);
+            out[i] = {.v0 = (v0 - base) / scale, .e1 = (v1 - v0) / scale, .e2 = (v2 - v0) / scale,
+                      .mask = input.masks.empty() ? 0 : input.masks[source]};
+        }
+    });
+}
+
 BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> triangles, const BvhRange& range, std::span<const PrimitiveRecord> corners,
-                 std::span<const glm::vec3> positions, const Box& box) {
+                 std::span<const glm::vec4> positions, const Box& box) {
     Bounds wanted = boundsOfBox(box);
     if (wanted.empty()) wanted = boundsOfPoint(glm::vec3(0));
     const Grid grid(wanted);
@@ -314,7 +342,7 @@ BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> triangles, con
         const glm::dvec3 base(BvhGrid{grid.base, grid.scale}.origin()), scale(grid.scale);
         for (std::size_t i = begin; i < end; ++i) {
             const PrimitiveRecord& c = corners[range.firstTriangle + i];
-            const glm::vec3 v0 = positions[c.v0], v1 = positions[c.v1], v2 = positions[c.v2];
+            const glm::vec3 v0(positions[c.v0]), v1(positions[c.v1]), v2(positions[c.v2]);
             BvhTriangle& triangle = triangles[range.firstTriangle + i];
             triangle.v0 = triangle.e1 = triangle.e2 = glm::vec3(0);
             if (!usable(v0) || !usable(v1) || !usable(v2)) continue;
@@ -359,8 +387,8 @@ Bvh buildTopLevel(std::span<const Box> boxes) {
     }
     Bvh bvh;
     if (references.empty()) return bvh;
-    writeNodes(std::span(references), Bounds(), 1, [&](const BinaryNode& n) { return bvh_ref::instance | references[n.first].index; }, bvh);
-    for (const Reference& r : references) bvh.order.push_back(r.index);
+    writeNodes(std::span(references), Bounds(), 1, [&](const Subtree& s) { return bvh_ref::instance | references[s.first].index(); }, bvh);
+    for (const Reference& r : references) bvh.order.push_back(r.index());
     return bvh;
 }
 
@@ -389,38 +417,6 @@ glm::vec4 traceRounding(const glm::mat4& toWorld) {
     const glm::dvec3 sums = inverse * (sizes(linear) * glm::dvec3(1));
     const double mixed = std::max({sums.x, sums.y, sums.z}) - 1;
     return glm::vec4(inverse * glm::abs(glm::dvec3(toWorld[3])), mixed > 1e-6 ? mixed : 0);
-}
-
-Box boundsOf(const Bvh& bvh, const glm::mat4& transform) {
-    Box result;
-    const glm::mat3 linear(transform), widening(glm::abs(linear[0]), glm::abs(linear[1]), glm::abs(linear[2]));
-    const auto include = [&](glm::vec3 low, glm::vec3 high) {  // grid steps
-        const glm::vec3 center = bvh.gridBase + 0.5f * (low + high) * bvh.gridScale, half = 0.5f * (high - low) * bvh.gridScale;
-        const glm::vec3 at(transform * glm::vec4(center, 1)), reach = widening * half;
-        result.low = glm::min(result.low, at - reach);
-        result.high = glm::max(result.high, at + reach);
-    };
-    const auto descend = [&](const auto& self, std::uint32_t reference, int levels) -> void {
-        const BvhNode& node = bvh.nodes[reference];
-        for (std::size_t i = 0; i < 4; ++i) {
-            const std::uint32_t child = node.dwords[2 * (4 + i) + 1];
-            if (child == bvh_ref::empty) continue;
-            if (child < bvh_ref::leaf && levels > 1) {
-                self(self, child, levels - 1);
-                continue;
-            }
-            const glm::uvec3 packed(node.dwords[2 * i], node.dwords[2 * (4 + i)], node.dwords[2 * i + 1]);
-            include(packed & 0xffffu, packed >> 16u);
-        }
-    };
-    if (bvh.root < bvh_ref::leaf) {
-        descend(descend, bvh.root, 3);
-    } else {
-        const glm::vec3 base = BvhGrid{bvh.gridBase, bvh.gridScale}.boxes();
-        for (const BvhTriangle& t : bvh.triangles)
-            for (const glm::vec3 v : {t.v0, t.v0 + t.e1, t.v0 + t.e2}) include(v - base, v - base);
-    }
-    return result;
 }
 
 }  // namespace lodestir

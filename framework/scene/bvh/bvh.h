@@ -51,7 +51,6 @@ struct Bvh {
     glm::vec3 gridBase{0}, gridScale{1};      ///< object = base + scale * grid
     std::uint32_t root = bvh_ref::empty;      ///< relative to this BVH's own nodes and triangles
     std::vector<BvhNode> nodes;
-    std::vector<BvhTriangle> triangles;       ///< BVH order
     std::vector<std::uint32_t> order;         ///< BVH order -> input triangle
 };
 
@@ -61,7 +60,9 @@ inline constexpr int bvhDepth = 21, bvhStack = 64;
 /// A reference as it reads when its BVH's nodes and triangles stand behind others in shared arrays. An empty BVH becomes bvh_ref::back,
 /// from which traversal returns at once, so the result may always stand in a table of roots.
 LODESTIR_API std::uint32_t relocated(std::uint32_t reference, std::size_t firstNode, std::size_t firstTriangle);
-/// Appends the nodes with their references relocated; returns the relocated root. Error when a triangle's number needs more than 27 bits.
+/// Writes the nodes with their references relocated; returns the relocated root. Error when a triangle's number needs more than 27 bits.
+LODESTIR_API std::uint32_t placeNodes(const Bvh& bvh, std::size_t firstNode, std::size_t firstTriangle, std::span<BvhNode> out);
+/// The same behind the nodes of others.
 LODESTIR_API std::uint32_t appendNodes(const Bvh& bvh, std::vector<BvhNode>& nodes, std::size_t firstTriangle);
 
 /// Where one BVH lies in arrays that it shares with others (see appendNodes).
@@ -79,22 +80,22 @@ struct BvhInput {
 /// Builds the hierarchy of one mesh level. Parallel, the same bits for any core count. Triangles with a corner that isn't finite
 /// (or beyond 1e18) can't be hit and are left out of `order`. Error from 2^27 triangles on.
 LODESTIR_API Bvh buildBvh(const BvhInput& input);
-/// The same, kept in the cache folder by content where building takes longer than reading (from 16384 triangles on).
+/// The triangles of a hierarchy that was built of the same input, in its order.
+LODESTIR_API void placeTriangles(const BvhInput& input, const Bvh& bvh, std::span<BvhTriangle> out);
+/// buildBvh, kept in the cache folder by content where building takes longer than reading (from 16384 triangles on).
 LODESTIR_API Bvh cachedBvh(const BvhInput& input);
 
 /// Fits a BVH in shared arrays to vertices that moved: its triangles and boxes are made anew, the tree stays as it was built. `corners` has
 /// three vertices per triangle of the shared array. Triangles with a corner that isn't finite can't be hit. Returns the grid made for `box`.
 LODESTIR_API BvhGrid refitBvh(std::span<BvhNode> nodes, std::span<BvhTriangle> triangles, const BvhRange& range,
-                              std::span<const PrimitiveRecord> corners, std::span<const glm::vec3> positions, const Box& box);
+                              std::span<const PrimitiveRecord> corners, std::span<const glm::vec4> positions, const Box& box);
 
 /// How traversal enters an instance of meshes that are built on this grid.
 LODESTIR_API TraceInstance traceInstance(std::uint32_t mesh, const BvhGrid& grid, const glm::mat4& toWorld);
 /// What InstanceRecord.rounding holds: |M^-1| |t|, and the largest sum of a row of |M^-1| |M| - 1, which is 0 where no axis is turned or sheared.
 LODESTIR_API glm::vec4 traceRounding(const glm::mat4& toWorld);
-/// Bounds of the BVH's content after a transform: of its upper boxes' corners, tighter than those of one box.
-LODESTIR_API Box boundsOf(const Bvh& bvh, const glm::mat4& transform);
-/// Builds the hierarchy over boxes; leaves are instance references (bvh_ref::instance | box). Triangles stay empty; order = boxes in
-/// the order of the leaves. Boxes that are empty or not finite are left out; none left: root is bvh_ref::empty.
+/// Builds the hierarchy over boxes; leaves are instance references (bvh_ref::instance | box). order = boxes in the order of the
+/// leaves. Boxes that are empty or not finite are left out; none left: root is bvh_ref::empty.
 LODESTIR_API Bvh buildTopLevel(std::span<const Box> boxes);
 
 }  // namespace lodestir

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Keeps built hierarchies on disk by the content they were built from.
 #include <framework/core/error.h>
-#include <framework/core/files.h>
+#include <framework/core/file_parts.h>
+#include <framework/core/is_file.h>
 #include <framework/core/log.h>
 #include <framework/scene/bvh/bvh.h>
 
-#include <cstring>
+#include <array>
 #include <optional>
 
 namespace lodestir {
@@ -15,6 +16,7 @@ constexpr std::string_view version = "lodestir bvh 3";  // of the builder and th
 constexpr std::size_t worthwhile = 16384;               // triangles: below, building is as fast as reading
 
 struct Header {
+    Hash content;  ///< of what follows: a damaged file would send rays anywhere
     glm::vec3 gridBase, gridScale;
     std::uint32_t root;
     std::uint32_t nodes, triangles;
@@ -27,44 +29,31 @@ Hash keyOf(const BvhInput& input) {
     return hash;
 }
 
-template <class T> void append(std::vector<std::byte>& out, std::span<const T> values) {
-    const auto bytes = std::as_bytes(values);
-    out.insert(out.end(), bytes.begin(), bytes.end());
-}
-
-/// Moves the first `count` values of the bytes into a vector and drops them from the bytes.
-template <class T> std::vector<T> take(std::span<const std::byte>& bytes, std::size_t count) {
-    std::vector<T> values(count);
-    std::memcpy(values.data(), bytes.data(), count * sizeof(T));
-    bytes = bytes.subspan(count * sizeof(T));
-    return values;
+Hash contentOf(const Header& header, const Bvh& bvh) {
+    Hash hash;
+    hash.addValue(header.gridBase).addValue(header.gridScale).addValue(header.root);
+    return hash.add(std::as_bytes(std::span(bvh.nodes))).add(std::as_bytes(std::span(bvh.order)));
 }
 
 void writeBvh(const Path& path, const Bvh& bvh) {
     Header header{.gridBase = bvh.gridBase, .gridScale = bvh.gridScale, .root = bvh.root, .nodes = std::uint32_t(bvh.nodes.size()),
-                  .triangles = std::uint32_t(bvh.triangles.size())};
-    std::vector<std::byte> bytes(sizeof header);
-    append(bytes, std::span(bvh.nodes));
-    append(bytes, std::span(bvh.triangles));
-    append(bytes, std::span(bvh.order));
-    std::memcpy(bytes.data(), &header, sizeof header);
-    writeSealed(path, bytes);
+                  .triangles = std::uint32_t(bvh.order.size())};
+    header.content = contentOf(header, bvh);
+    const std::array parts{std::as_bytes(std::span(&header, 1)), std::as_bytes(std::span(bvh.nodes)), std::as_bytes(std::span(bvh.order))};
+    writeParts(path, parts);
 }
 
 std::optional<Bvh> readBvh(const Path& path) {
-    const std::optional<std::vector<std::byte>> file = readSealed(path);  // a damaged one would send rays anywhere
-    if (!file) return {};
-    std::span<const std::byte> bytes = *file;
+    if (!isFile(path)) return {};
+    FileReader file(path);
     Header header;
-    if (bytes.size() < sizeof header) return {};
-    std::memcpy(&header, bytes.data(), sizeof header);
-    const std::size_t triangleBytes = sizeof(BvhTriangle) + sizeof(std::uint32_t);
-    if (bytes.size() != sizeof header + header.nodes * sizeof(BvhNode) + header.triangles * triangleBytes) return {};
-    bytes = bytes.subspan(sizeof header);
+    if (!file.read(std::as_writable_bytes(std::span(&header, 1)))) return {};
+    if (file.size() != sizeof header + header.nodes * sizeof(BvhNode) + header.triangles * sizeof(std::uint32_t)) return {};
     Bvh bvh{.gridBase = header.gridBase, .gridScale = header.gridScale, .root = header.root};
-    bvh.nodes = take<BvhNode>(bytes, header.nodes);
-    bvh.triangles = take<BvhTriangle>(bytes, header.triangles);
-    bvh.order = take<std::uint32_t>(bytes, header.triangles);
+    bvh.nodes.resize(header.nodes);
+    bvh.order.resize(header.triangles);
+    const bool whole = file.read(std::as_writable_bytes(std::span(bvh.nodes))) && file.read(std::as_writable_bytes(std::span(bvh.order)));
+    if (!whole || header.content != contentOf(header, bvh)) return {};
     return bvh;
 }
 
@@ -73,7 +62,11 @@ std::optional<Bvh> readBvh(const Path& path) {
 Bvh cachedBvh(const BvhInput& input) {
     if (input.triangles.size() < worthwhile) return buildBvh(input);
     const Path path = cacheFolder("bvh") / (keyOf(input).hex() + ".bvh");
-    if (std::optional<Bvh> bvh = readBvh(path)) return std::move(*bvh);
+    try {
+        if (std::optional<Bvh> bvh = readBvh(path)) return std::move(*bvh);
+    } catch (const Error&) {
+        // Unreadable is as good as missing.
+    }
     Bvh bvh = buildBvh(input);
     try {
         writeBvh(path, bvh);

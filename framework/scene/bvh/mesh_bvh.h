@@ -7,6 +7,9 @@
 
 namespace lodestir {
 
+/// BvhTriangle::mask of each triangle; empty where no material asks for one.
+std::vector<std::uint32_t> triangleMasks(const Scene& scene, const MeshLevel& level);
+
 /// From the cache on disk where it was built before. World.primitives holds the triangles in Bvh::order, level after level, mesh after mesh.
 LODESTIR_API Bvh meshBvh(const Scene& scene, const Mesh& mesh, std::size_t level);
 

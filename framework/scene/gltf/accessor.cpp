@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bounds-checked reading of glTF accessors.
+#include <framework/core/tasks.h>
 #include <framework/scene/gltf/accessor.h>
 
 #include <fmt/format.h>
@@ -158,30 +159,45 @@ std::vector<std::uint32_t> Accessor::sparseIndices() const {
     return result;
 }
 
-/// Elements in order, the replaced ones replaced; read(bytes, out) converts one element to its T components.
-template <class T, class Read> std::vector<T> Accessor::gather(const Read& read) const {
-    const auto components = static_cast<std::size_t>(components_);
-    std::vector<T> result(count_ * components, T(0));
+/// Elements in order, the replaced ones replaced, `none` where there are no data; read(bytes, out) converts one element to its T values.
+template <class T, class Read> std::vector<T> Accessor::gather(std::size_t values, T none, const Read& read) const {
+    std::vector<T> result(count_ * values, none);
     if (!base_.bytes.empty()) {
-        for (std::size_t i = 0; i < count_; ++i) read(base_.bytes.data() + i * base_.stride, &result[i * components]);
+        parallelFor(count_, 65536, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) read(base_.bytes.data() + i * base_.stride, &result[i * values]);
+        });
     }
-    for (std::size_t i = 0; i < replaced_.size(); ++i) read(sparse_.bytes.data() + i * sparse_.stride, &result[replaced_[i] * components]);
+    for (std::size_t i = 0; i < replaced_.size(); ++i) read(sparse_.bytes.data() + i * sparse_.stride, &result[replaced_[i] * values]);
     return result;
 }
 
 std::vector<float> Accessor::floats() const {
     const int type = source_->componentType;
-    return gather<float>([&](const std::byte* element, float* out) {
+    return gather<float>(static_cast<std::size_t>(components_), 0, [&](const std::byte* element, float* out) {
         for (int c = 0; c < components_; ++c) out[c] = loadNumber(element + c * componentSize_, type, source_->normalized);
     });
 }
+
+template <class V> std::vector<V> Accessor::vectors(V fill) const {
+    const int type = source_->componentType;
+    for (int c = 0; c < components_; ++c) fill[c] = 0;  // what has no data is zero
+    if (type == TINYGLTF_COMPONENT_TYPE_FLOAT && components_ == V::length())
+        return gather<V>(1, fill, [](const std::byte* element, V* out) { *out = load<V>(element); });
+    return gather<V>(1, fill, [&](const std::byte* element, V* out) {
+        for (int c = 0; c < components_; ++c) (*out)[c] = loadNumber(element + c * componentSize_, type, source_->normalized);
+    });
+}
+
+template std::vector<glm::vec2> Accessor::vectors(glm::vec2) const;
+template std::vector<glm::vec3> Accessor::vectors(glm::vec3) const;
+template std::vector<glm::vec4> Accessor::vectors(glm::vec4) const;
 
 std::vector<std::uint32_t> Accessor::indices() const {
     const int type = source_->componentType;
     const bool unsignedType = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                               type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (!unsignedType || components_ != 1) throw file_.error(pointer_, "indices must be unsigned integer scalars");
-    return gather<std::uint32_t>([&](const std::byte* element, std::uint32_t* out) { *out = loadUnsigned(element, componentSize_); });
+    return gather<std::uint32_t>(1, 0, [&](const std::byte* element, std::uint32_t* out) { *out = loadUnsigned(element, componentSize_); });
 }
 
 }  // namespace lodestir

@@ -3,6 +3,8 @@
 #pragma once
 #include <framework/scene/gltf/file.h>
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -27,6 +29,8 @@ public:
 
     /// count * components numbers; normalised integers become [0, 1] or [-1, 1] (section 3.6.2.2), other integers keep their value.
     std::vector<float> floats() const;
+    /// The same as vectors, `fill` in what components V has more than the elements.
+    template <class V> std::vector<V> vectors(V fill) const;
     /// Elements of an unsigned integer scalar accessor. Error when it is of another type.
     std::vector<std::uint32_t> indices() const;
 
@@ -38,7 +42,7 @@ private:
     Elements locate(int view, std::size_t offset, std::size_t elementSize, std::size_t count, bool useStride,
                     const std::string& what) const;
     std::vector<std::uint32_t> sparseIndices() const;
-    template <class T, class Read> std::vector<T> gather(const Read& read) const;
+    template <class T, class Read> std::vector<T> gather(std::size_t values, T none, const Read& read) const;
 
     const GltfFile& file_;
     const tinygltf::Accessor* source_ = nullptr;

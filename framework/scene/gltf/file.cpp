@@ -159,7 +159,8 @@ bool isFallback(const GltfFile& file, std::size_t buffer) {
     return compressed || file.json.find("buffers")->items()[buffer].find("extensions");
 }
 
-void readBuffers(GltfFile& file, const Container& container, Problems& problems) {
+/// `whole`: the file's bytes, which become those of a buffer inside it.
+void readBuffers(GltfFile& file, const Container& container, std::vector<std::byte> whole, Problems& problems) {
     const Json* buffers = file.json.find("buffers");
     if (!buffers) return;
     if (!buffers->isArray()) throw file.error("/buffers", fmt::format("expected an array, got {}", buffers->kindName()));
@@ -179,7 +180,10 @@ void readBuffers(GltfFile& file, const Container& container, Problems& problems)
                     throw file.error(pointer + "/uri", error);
                 }
             } else if (i == 0 && container.hasBinary) {
-                bytes.assign(container.binary.begin(), container.binary.end());
+                const std::ptrdiff_t start = container.binary.data() - whole.data();
+                bytes = std::move(whole);
+                bytes.resize(static_cast<std::size_t>(start) + container.binary.size());
+                bytes.erase(bytes.begin(), bytes.begin() + start);
             } else {
                 continue;  // it has no data, which is wrong only where somebody wants to read it
             }
@@ -213,7 +217,7 @@ Error GltfFile::error(const std::string& pointer, const Error& cause) const {
 
 GltfFile readGltfFile(const Path& path) {
     static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian and read in place");
-    const std::vector<std::byte> bytes = readBytes(path);
+    std::vector<std::byte> bytes = readBytes(path);
     GltfFile file;
     file.path = path;
     file.binary = bytes.size() >= 4 && word(bytes, 0) == glbMagic;
@@ -227,7 +231,7 @@ GltfFile readGltfFile(const Path& path) {
     Problems problems;
     checkExtensions(file, problems);
     problems.raise();  // alone: what else is wrong may come from the extension
-    readBuffers(file, container, problems);
+    readBuffers(file, container, std::move(bytes), problems);
     problems.raise();
     parseGltfStructure(file);
     decodeMeshopt(file, problems);

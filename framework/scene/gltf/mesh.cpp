@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Meshes of a glTF model.
+#include <framework/core/tasks.h>
 #include <framework/scene/gltf/accessor.h>
 #include <framework/scene/gltf/material.h>
 #include <framework/scene/gltf/mesh.h>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <numeric>
 
@@ -83,14 +85,7 @@ private:
             throw import_.file.error(user,
                                      fmt::format("{} has {} elements, POSITION has {}", name, accessor.count(), level_.positions.size()));
         }
-        const std::vector<float> values = accessor.floats();
-        std::vector<V> result(accessor.count(), fill);
-        const int components = accessor.components();
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            for (int c = 0; c < components; ++c)
-                result[i][c] = values[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)];
-        }
-        return result;
+        return accessor.vectors(fill);
     }
 
     void readVertices() {
@@ -163,8 +158,8 @@ private:
         }
         if (source_.mode == TINYGLTF_MODE_TRIANGLES) {
             if (indices.size() % 3 != 0) import_.note("vertices that make no whole triangle are left out");
-            for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-                level_.triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+            level_.triangles.resize(indices.size() / 3);
+            std::memcpy(level_.triangles.data(), indices.data(), level_.triangles.size() * sizeof(glm::uvec3));
             return;
         }
         // glTF 2.0, section 3.7.2.1: triangle i of a strip and of a fan.
@@ -177,27 +172,41 @@ private:
         }
     }
 
+    enum class Fault : std::uint8_t { none, thin, infinite };
+
     /// What is thin now may not stay so when it deforms.
+    Fault faultOf(const glm::uvec3& t) const {
+        const glm::dvec3 a(level_.positions[t.x]), b(level_.positions[t.y]), c(level_.positions[t.z]);
+        if (!isFinite(a) || !isFinite(b) || !isFinite(c)) return Fault::infinite;
+        if (deforms()) return Fault::none;
+        const glm::dvec3 e = b - a, f = c - a, g = c - b;
+        const double longest = std::max({glm::dot(e, e), glm::dot(f, f), glm::dot(g, g)});
+        return glm::length(glm::cross(e, f)) > thinnest * longest ? Fault::none : Fault::thin;
+    }
+
     void dropTriangles() {
-        std::size_t thin = 0, infinite = 0;
-        std::erase_if(level_.triangles, [&](const glm::uvec3& t) {
-            const glm::dvec3 a(level_.positions[t.x]), b(level_.positions[t.y]), c(level_.positions[t.z]);
-            if (!isFinite(a) || !isFinite(b) || !isFinite(c)) return ++infinite > 0;
-            if (deforms()) return false;
-            const glm::dvec3 e = b - a, f = c - a, g = c - b;
-            const double longest = std::max({glm::dot(e, e), glm::dot(f, f), glm::dot(g, g)});
-            return !(glm::length(glm::cross(e, f)) > thinnest * longest) && ++thin > 0;
+        std::vector<Fault> faults(level_.triangles.size());
+        parallelFor(faults.size(), 65536, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) faults[i] = faultOf(level_.triangles[i]);
         });
-        import_.scene.droppedTriangles += thin + infinite;
+        const auto thin = std::ranges::count(faults, Fault::thin), infinite = std::ranges::count(faults, Fault::infinite);
+        if (thin + infinite == 0) return;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < faults.size(); ++i)
+            if (faults[i] == Fault::none) level_.triangles[kept++] = level_.triangles[i];
+        level_.triangles.resize(kept);
+        import_.scene.droppedTriangles += std::size_t(thin + infinite);
         if (infinite > 0) import_.note(fmt::format("{}: {} triangles with vertices that are not finite are left out", pointer_, infinite));
     }
 
     /// Keeps used vertices in their order: primitives often share one large vertex buffer.
     void compact() {
-        std::vector<std::uint32_t> place(level_.positions.size(), none), kept;
+        std::vector<std::uint32_t> place(level_.positions.size(), none);
         for (const glm::uvec3& t : level_.triangles) {
             for (int c = 0; c < 3; ++c) place[t[c]] = 0;
         }
+        if (std::ranges::find(place, none) == place.end()) return;
+        std::vector<std::uint32_t> kept;
         for (std::size_t v = 0; v < place.size(); ++v) {
             if (place[v] == none) continue;
             place[v] = static_cast<std::uint32_t>(kept.size());
@@ -248,6 +257,10 @@ void extend(std::vector<T>& values, std::size_t before, std::vector<T> more, std
 }
 
 void append(MeshLevel& level, MeshLevel part) {
+    if (level.positions.empty()) {
+        level = std::move(part);
+        return;
+    }
     const std::size_t before = level.positions.size(), count = part.positions.size();
     for (const glm::uvec3& t : part.triangles) level.triangles.push_back(t + static_cast<std::uint32_t>(before));
     for (const glm::uvec3& t : part.flatFaces) level.flatFaces.push_back(t + static_cast<std::uint32_t>(before));

@@ -7,8 +7,8 @@ namespace lodestir {
 
 BottomLevels::BottomLevels(const gpu::Device& device, const Geometry& geometry) : device_(device) {
     std::vector<std::uint32_t> indices;
-    indices.reserve(3 * geometry.primitives.size());
-    for (const PrimitiveRecord& p : geometry.primitives) indices.insert(indices.end(), {p.v0, p.v1, p.v2});
+    indices.reserve(3 * geometry.primitives.values().size());
+    for (const PrimitiveRecord& p : geometry.primitives.values()) indices.insert(indices.end(), {p.v0, p.v1, p.v2});
     indices_ = gpu::makeBuffer(device, std::span<const std::uint32_t>(indices), "indices");
 }
 
@@ -20,12 +20,12 @@ std::shared_ptr<const BottomLevels::Table> BottomLevels::build(const Scene& scen
         for (std::size_t l = 0; l < LEVELS; ++l) {
             const LevelRecord& level = geometry.levels[m * LEVELS + l];
             if (level.primitiveCount == 0 || place.contains(level.firstPrimitive) || rigid_.contains(level.firstPrimitive)) continue;
-            const auto masks = std::span(geometry.triangles).subspan(level.firstPrimitive, level.primitiveCount);
+            const auto masks = geometry.triangles.values().subspan(level.firstPrimitive, level.primitiveCount);
             place[level.firstPrimitive] = wanted.size();
             deforms.push_back(scene.meshes[m].deforms());
             wanted.push_back({.positions = positions,
                               .indices = indices_.address() + std::uint64_t(level.firstPrimitive) * 3 * sizeof(std::uint32_t),
-                              .vertices = std::uint32_t(geometry.positions.size()),
+                              .vertices = std::uint32_t(geometry.positions.values().size()),
                               .triangles = level.primitiveCount,
                               .stride = sizeof(glm::vec4),
                               .opaque = std::ranges::all_of(masks, [](const BvhTriangle& t) { return t.mask == 0; })});

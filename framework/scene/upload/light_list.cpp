@@ -44,9 +44,9 @@ float meanEmission(const Scene& scene, const MeshLevel& level, glm::uvec3 triang
     return sum / points + 0.05f * factor;
 }
 
-float triangleArea(std::span<const glm::vec3> positions, glm::uvec3 t, const glm::mat4& toWorld) {
+float triangleArea(std::span<const glm::vec4> positions, glm::uvec3 t, const glm::mat4& toWorld) {
     const glm::mat3 linear(toWorld);
-    return 0.5f * glm::length(glm::cross(linear * (positions[t.y] - positions[t.x]), linear * (positions[t.z] - positions[t.x])));
+    return 0.5f * glm::length(glm::cross(linear * glm::vec3(positions[t.y] - positions[t.x]), linear * glm::vec3(positions[t.z] - positions[t.x])));
 }
 
 LightRecord pointlike(const Light& light, const glm::mat4& toWorld) {
@@ -64,7 +64,7 @@ LightRecord pointlike(const Light& light, const glm::mat4& toWorld) {
 
 }  // namespace
 
-LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const std::span<const glm::vec3>> positions,
+LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const std::span<const glm::vec4>> positions,
                      const std::vector<glm::mat4>& nodeMatrices, float sceneRadius) {
     constexpr double pi = glm::pi<double>();
     LightList list;

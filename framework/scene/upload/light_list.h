@@ -26,7 +26,7 @@ struct LightList {
 /// Lists emissive triangles by instance, then lights without extent, then the environment. The probability of a light is half
 /// proportional to its power and half shared evenly among the kinds present, so that no kind starves. `positions` are those of each mesh's
 /// finest level.
-LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const std::span<const glm::vec3>> positions,
+LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const std::span<const glm::vec4>> positions,
                      const std::vector<glm::mat4>& nodeMatrices, float sceneRadius);
 
 }  // namespace lodestir

@@ -104,22 +104,25 @@ CameraRecord cameraRecord(const CameraKey& camera, glm::uvec2 size) {
 
 }  // namespace
 
-/// Positions, normals and boxes on the GPU.
+/// Where positions, normals and boxes lie. Where meshes deform each pose has its own.
 struct WorldBuilder::Shapes {
-    gpu::Buffer triangles, meshes, positions, vertices;
+    VkDeviceAddress triangles = 0, positions = 0, vertices = 0;
+    std::vector<gpu::Buffer> posed;
+    gpu::Buffer meshes;
 };
 
 /// What never changes.
 struct WorldBuilder::Fixed {
-    gpu::Buffer roots, levels, primitives, emitterIndices, materials, layers, textures, texels, environment;
-    std::size_t bytes = 0;
+    std::shared_ptr<const Geometry> geometry;
+    gpu::Buffer roots, levels, materials, layers, textures, texels, environment;
 };
 
 /// What follows the pose of one frame.
 struct WorldBuilder::Moving {
     std::shared_ptr<const Shapes> shapes;
     std::shared_ptr<const BottomLevels::Table> bottomLevels;
-    gpu::Buffer nodes, traceInstances, instances, lights;
+    gpu::Array<BvhNode> nodes;
+    gpu::Buffer traceInstances, instances, lights;
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
     std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
     float radius = 1;
@@ -132,8 +135,9 @@ struct WorldBuilder::Levels {
 };
 
 WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool rayQuery)
-    : device_(device), scene_(scene), geometry_(std::make_unique<Geometry>(scene)) {
+    : device_(device), scene_(scene), geometry_(std::make_shared<Geometry>(scene, &device)) {
     auto fixed = std::make_shared<Fixed>();
+    fixed->geometry = geometry_;
     std::vector<MaterialRecord> materials;
     std::vector<LayersRecord> layers;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
@@ -150,15 +154,9 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool r
         textures.push_back({first * 4, std::uint32_t(texture.width), std::uint32_t(texture.height), mips, textureFlags(texture)});
     }
 
-    const auto upload = [&]<class T>(const std::vector<T>& values, const char* name) {
-        gpu::Buffer buffer = gpu::makeBuffer(device_, std::span<const T>(values), name);
-        fixed->bytes += buffer.size();
-        return buffer;
-    };
+    const auto upload = [&]<class T>(const std::vector<T>& values, const char* name) { return gpu::makeBuffer(device_, std::span<const T>(values), name); };
     fixed->roots = upload(geometry_->roots, "roots");
     fixed->levels = upload(geometry_->levels, "mesh levels");
-    fixed->primitives = upload(geometry_->primitives, "primitives");
-    fixed->emitterIndices = upload(geometry_->emitterIndices, "emitters");
     fixed->materials = upload(materials, "materials");
     fixed->layers = upload(layers, "material layers");
     fixed->texels = upload(texels, "texels");
@@ -172,24 +170,22 @@ WorldBuilder::WorldBuilder(const gpu::Device& device, const Scene& scene, bool r
 
 std::shared_ptr<const WorldBuilder::Shapes> WorldBuilder::uploadShapes() const {
     auto shapes = std::make_shared<Shapes>();
-    shapes->triangles = gpu::makeBuffer(device_, std::span<const BvhTriangle>(geometry_->triangles), "triangles");
+    const auto place = [&]<class T>(const gpu::Array<T>& array, const char* name) {
+        if (array.buffer()) return array.buffer().address();
+        return shapes->posed.emplace_back(gpu::makeBuffer(device_, array.values(), name)).address();
+    };
+    shapes->triangles = place(geometry_->triangles, "triangles");
+    shapes->positions = place(geometry_->positions, "positions");
+    shapes->vertices = place(geometry_->vertices, "vertices");
     shapes->meshes = gpu::makeBuffer(device_, std::span<const MeshRecord>(geometry_->meshes), "meshes");
-    std::vector<glm::vec4> positions;
-    positions.reserve(geometry_->positions.size());
-    for (const glm::vec3& p : geometry_->positions) positions.emplace_back(p, 0);
-    shapes->positions = gpu::makeBuffer(device_, std::span<const glm::vec4>(positions), "positions");
-    shapes->vertices = gpu::makeBuffer(device_, std::span<const VertexRecord>(geometry_->vertices), "vertices");
     return shapes;
 }
 
 WorldBuilder::~WorldBuilder() = default;
 
-SceneRecords WorldBuilder::records() const { return {geometry_->levels, geometry_->primitives, geometry_->vertices, geometry_->positions}; }
-
-std::size_t WorldBuilder::memoryBytes() const {
+SceneRecords WorldBuilder::records() const {
     const Geometry& g = *geometry_;
-    const auto bytes = [](const auto&... lists) { return ((lists.size() * sizeof(lists[0])) + ...); };
-    return fixed_->bytes + bytes(g.nodes, g.triangles, g.meshes, g.positions, g.vertices);
+    return {g.levels, g.primitives.values(), g.vertices.values(), g.positions.values()};
 }
 
 std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose& pose) {
@@ -197,7 +193,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     if (scene_.deforms()) geometry_->pose(scene_, pose);
     moving->shapes = shapes_ ? shapes_ : uploadShapes();
     if (bottomLevels_ && (scene_.deforms() || !moving_))
-        moving->bottomLevels = bottomLevels_->build(scene_, *geometry_, moving->shapes->positions.address());
+        moving->bottomLevels = bottomLevels_->build(scene_, *geometry_, moving->shapes->positions);
     else if (moving_)
         moving->bottomLevels = moving_->bottomLevels;
     std::vector<Box> boxes;
@@ -228,17 +224,20 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
         moving->center = 0.5f * (all.low + all.high);
         moving->radius = std::max(0.5f * glm::length(all.high - all.low), 1e-6f);
     }
-    std::vector<std::span<const glm::vec3>> positions;
+    std::vector<std::span<const glm::vec4>> positions;
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m) positions.push_back(geometry_->finestPositions(m));
     const LightList lights = listLights(scene_, geometry_->emitters, positions, pose.nodes, moving->radius);
     for (std::size_t i = 0; i < records.size(); ++i) records[i].firstLight = lights.firstLight[i];
 
     const Bvh top = buildTopLevel(boxes);
-    std::vector<BvhNode> nodes = geometry_->nodes;
+    const std::size_t below = geometry_->nodes.size();
+    moving->nodes = {&device_, below + top.nodes.size(), "nodes"};
+    std::ranges::copy(geometry_->nodes, moving->nodes.values().begin());
     moving->gridBase = top.gridBase;
     moving->gridScale = top.gridScale;
-    moving->topRoot = top.root == bvh_ref::empty ? top.root : appendNodes(top, nodes, 0);
-    moving->nodes = gpu::makeBuffer(device_, std::span<const BvhNode>(nodes), "nodes");
+    moving->topRoot = top.root == bvh_ref::empty ? top.root : placeNodes(top, below, 0, moving->nodes.values().subspan(below));
+    moving->nodes.upload();
+    if (scene_.animation.empty()) geometry_->nodes = {};  // there is no other pose
     moving->traceInstances = gpu::makeBuffer(device_, std::span<const TraceInstance>(traced), "trace instances");
     moving->instances = gpu::makeBuffer(device_, std::span<const InstanceRecord>(records), "instances");
     moving->lights = gpu::makeBuffer(device_, std::span<const LightRecord>(lights.lights), "lights");
@@ -256,8 +255,8 @@ void WorldBuilder::moveTo(float frame) {
 
 World WorldBuilder::placedWorld() const {
     World w{};
-    w.nodes = moving_->nodes.address();
-    w.triangles = moving_->shapes->triangles.address();
+    w.nodes = moving_->nodes.buffer().address();
+    w.triangles = moving_->shapes->triangles;
     w.traceInstances = moving_->traceInstances.address();
     w.roots = fixed_->roots.address();
     w.bottomLevels = moving_->bottomLevels ? moving_->bottomLevels->addresses.address() : 0;
@@ -266,12 +265,12 @@ World WorldBuilder::placedWorld() const {
     w.topRoot = moving_->topRoot;
     w.instanceCount = std::uint32_t(scene_.instances.size());
     w.instances = moving_->instances.address();
-    w.primitives = fixed_->primitives.address();
+    w.primitives = geometry_->primitives.buffer().address();
     w.meshLevels = fixed_->levels.address();
     w.meshes = moving_->shapes->meshes.address();
-    w.emitters = fixed_->emitterIndices.address();
-    w.positions = moving_->shapes->positions.address();
-    w.vertices = moving_->shapes->vertices.address();
+    w.emitters = geometry_->emitterIndices.buffer().address();
+    w.positions = moving_->shapes->positions;
+    w.vertices = moving_->shapes->vertices;
     w.materials = fixed_->materials.address();
     w.layers = fixed_->layers.address();
     w.textures = fixed_->textures.address();

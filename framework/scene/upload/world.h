@@ -29,7 +29,6 @@ public:
     /// Each mesh by itself, as Frame::objects says, in the pose of a World that at() made; nullptr: of frame 0.
     FrameWorld objects(const World* posed);
     SceneRecords records() const;
-    std::size_t memoryBytes() const;  ///< on the GPU, of what never changes
 
 private:
     struct Shapes;
@@ -43,7 +42,7 @@ private:
 
     const gpu::Device& device_;
     const Scene& scene_;
-    std::unique_ptr<Geometry> geometry_;  ///< as moving_ has it
+    std::shared_ptr<Geometry> geometry_;    ///< as moving_ has it
     std::shared_ptr<const Shapes> shapes_;  ///< null where meshes deform: each pose has its own
     std::shared_ptr<const Fixed> fixed_;
     std::unique_ptr<BottomLevels> bottomLevels_;  ///< null without ray queries

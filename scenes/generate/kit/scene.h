@@ -15,3 +15,6 @@ Glb scene();
 /// function: `lodestir lod` adds levels of detail to the model with these options.
 #define LODESTIR_SCENE(make, ...) \
     Glb scene() { return make(); }
+
+/// The same for a scene of so many triangles that no build makes it unless asked: cmake --build --preset release --target scene_NAME.
+#define LODESTIR_LARGE_SCENE(make) LODESTIR_SCENE(make)
