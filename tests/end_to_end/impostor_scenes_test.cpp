@@ -120,6 +120,16 @@ void expectAPlainGround(const Scene& scene) {
         for (float y = -1; y <= 1; y += 0.25f) EXPECT_LT(glm::distance(radianceAt({x, y}), middle), 0.1f * glm::length(middle)) << x << " " << y;
 }
 
+class ImpostorScene : public testing::TestWithParam<Object> {};
+
+TEST_P(ImpostorScene, ShowsOneThingByItself) {
+    const Scene scene = loaded(GetParam().scene);
+    expectOneThingThatFillsTheSquare(scene, GetParam());
+    expectTrianglesAndLevels(scene, GetParam());
+    expectThreeLightsOutOfSight(scene, GetParam());
+    expectAPlainGround(scene);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, ImpostorScene,
                          testing::Values(Object{"deer", "deer", 25000, 40000, 4}, Object{"bunny", "bunny", 200000, 500000, 5},
                                          Object{"mirror", "mirror", 100000, 500000, 4}, Object{"teapot", "teapot", 100000, 500000, 4},

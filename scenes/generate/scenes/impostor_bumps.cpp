@@ -16,7 +16,7 @@ static Glb makeBumps() {
         Surface s;
         s.color = glm::vec3(0.55f, 0.57f, 0.60f);
         s.roughness = std::sqrt(0.05f);  // alpha 0.05
-        s.height = 0.006f * noise.fractal(d * 38.0f, 3, 0.5f);
+        s.height = 0.008f * noise.fractal(d * 38.0f, 3, 0.5f);
         return s;
     });
     Material metal = glb.dressed({.name = "bumps", .roughness = std::sqrt(0.05f), .metalness = 1}, pictures);

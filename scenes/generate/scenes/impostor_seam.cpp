@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A drum on a block whose charts meet in seams: what lies side by side on the surface lies far apart in the picture, with magenta between, and on the drum's
-// upper half coordinates run on from 1 into the picture's next copy. The mean of two coordinates across a seam is a place whose colour is nowhere on the surface.
+// A drum on a block whose charts meet in seams: what lies side by side on the surface lies far apart in the picture, with magenta between, and on the
+// drum's upper half coordinates run on from 1 into the picture's next copy. The mean of two coordinates across a seam is a place whose colour is nowhere
+// on the surface.
 #include <array>
 #include <cmath>
 #include <numbers>
