@@ -20,7 +20,7 @@ bool mapSurfacePoint(World from, World to, World now, UvIndex index, bool mapped
     jacobian = 1.0;
     uint before = from.levels.at[p.instance], after = to.levels.at[p.instance];
     if (before == after || isShown(to, p)) return true;
-    if (!mapped) return false;
+    if (!mapped || max(before, after) >= LEVELS) return false;  // hidden in one of them
     Placement placed = placementOf(now, p.instance);
     mat3 space = mapping.worldSpace ? transpose(mat3(placed.row0, placed.row1, placed.row2)) : mat3(1.0);
     MappedPoint found = mapPoint(to, index, to.instances.at[p.instance].mesh, p.primitive, uv, before, after, mapping.matching, space);

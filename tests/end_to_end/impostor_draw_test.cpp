@@ -44,14 +44,14 @@ OrderedJson camerasAround(const std::vector<glm::dvec3>& ways, double distance, 
 }
 
 /// Impostors and geometry, drawn side by side.
-OrderedJson drawBoth(OrderedJson bake, OrderedJson draw = OrderedJson::object(), OrderedJson fill = OrderedJson::object()) {
+OrderedJson drawBoth(OrderedJson bake, OrderedJson draw = OrderedJson::object(), const std::string& world = "scene") {
     bake.update({{"points", 0}});
     return {{"bake", {{"type", "impostor_bake"}, {"set", bake}}},
             {"draw", {{"type", "impostor_forward_map"}, {"set", draw}}},
-            {"fill", {{"type", "hole_fill"}, {"in", {{"surfels", "draw"}}}, {"set", fill}}},
+            {"fill", {{"type", "hole_fill"}, {"in", {{"surfels", "draw"}}}}},
             {"shade", {{"type", "reshade"}, {"in", {{"surfels", "fill"}, {"impostors", "bake"}}}}},
-            {"hits", {{"type", "visibility"}, {"set", {{"film", "centre"}}}}},
-            {"truth", {{"type", "reshade"}, {"in", {{"hits", "hits"}}}}}};
+            {"hits", {{"type", "visibility"}, {"in", {{"world", "scene"}}}, {"set", {{"film", "centre"}}}}},
+            {"truth", {{"type", "reshade"}, {"in", {{"world", world}, {"hits", "hits"}}}}}};
 }
 const std::vector<std::string> ports{"shade.color", "truth.color", "draw.surfels", "fill.surfels", "hits.depth", "hits.normal", "draw.texels"};
 
@@ -256,6 +256,42 @@ TEST_F(ImpostorDraw, BackSurfacesDoNotLeak) {
     }
 }
 
+// Far balls are drawn as impostors, near ones left to geometry; together they are all of them, and each is there once.
+TEST_F(ImpostorDraw, GeometryHandsOver) {
+    Body body(1);
+    body.sphere(0.5);
+    std::vector<glm::vec3> places;
+    for (int i = 0; i < 12; ++i) places.push_back({1.3f * float(i % 2) - 0.65f, 0, -3.0f * float(i / 2)});
+    const Path model = body.write(folder.path, "balls", places);
+    OrderedJson passes = {{"all", {{"type", "visibility"}, {"in", {{"world", "scene"}}}, {"set", {{"film", "centre"}}}}},
+                          {"bake", {{"type", "impostor_bake"}, {"set", {{"resolution", 64}, {"points", 0}}}}},
+                          {"draw", {{"type", "impostor_forward_map"}, {"in", {{"world", "scene"}}}, {"set", {{"pixelError", 1}}}}},
+                          {"rest", {{"type", "visibility"}, {"in", {{"world", "draw.rest"}}}, {"set", {{"film", "centre"}}}}}};
+    Frames frames(writeScene(folder.path, model, cameraAt({0, 1.5, 5}, {0, 0, -8})), {128, 128}, passes, {"all.depth", "rest.depth", "draw.surfels"});
+    for (int frame = 0; frame < 2; ++frame) {  // with history, too
+        frames.run();
+        const ImageData all = frames.image("all.depth"), rest = frames.image("rest.depth");
+        const std::vector<Surfel> surfels = frames.records<Surfel>("draw.surfels");
+        std::set<std::uint32_t> drawn;
+        double wrong = 0, near = 0;
+        for (std::size_t i = 0; i < surfels.size(); ++i) {
+            const bool isDrawn = surfels[i].instance != nothing;
+            if (isDrawn) drawn.insert(surfels[i].instance);
+            const float behind = rest.values[i] > 0 ? rest.values[i] : 1e30f, depth = std::min(behind, isDrawn ? surfels[i].depth : 1e30f);
+            near += rest.values[i] > 0;
+            wrong += std::abs((depth < 1e30f ? depth : 0) - all.values[i]) > 0.1f;
+        }
+        std::printf("%zu of 12 are impostors; %g pixels show another surface\n", drawn.size(), wrong);
+        EXPECT_GT(near, 500);
+        EXPECT_GE(drawn.size(), 4u);
+        EXPECT_LE(drawn.size(), 10u);
+        EXPECT_LT(wrong, 60);  // outlines of the far ones
+    }
+    frames.set("draw.pixelError", Json(0.0));
+    frames.run();
+    EXPECT_EQ(sumOf(frames.image("rest.depth")), 0);
+}
+
 // Materials are asked when light falls, not when the impostor is made.
 TEST_F(ImpostorDraw, MaterialsAreEditedWithoutAnotherBake) {
     Body body(1);
@@ -264,7 +300,7 @@ TEST_F(ImpostorDraw, MaterialsAreEditedWithoutAnotherBake) {
     const Path model = body.write(folder.path, "ball");
     OrderedJson passes = {{"bake", {{"type", "impostor_bake"}, {"set", {{"resolution", 128}, {"points", 0}}}}},
                           {"edit", {{"type", "material_edit"}}}};
-    passes.update(drawBoth({{"resolution", 128}}));
+    passes.update(drawBoth({{"resolution", 128}}, OrderedJson::object(), "edit"));
     passes["edit"]["set"] = {{"material", "material 0"}};
     Frames frames(writeScene(folder.path, model, cameraAt({2, 2, 3.6}),
                              {{"environment", {{"type", "sky"}, {"sunDirection", {0.5, 0.7, 0.5}}, {"sunAngle", 5}, {"sunStrength", 1}, {"turbidity", 3}}},

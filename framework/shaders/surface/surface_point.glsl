@@ -31,8 +31,8 @@ vec3 smoothNormalOn(World w, uvec3 corners, vec2 barycentrics) {
 
 /// Does this World show the point, at the level at which the instance is present?
 bool isShown(World w, SurfacePoint p) {
-    uint level = w.instances.at[p.instance].mesh * LEVELS + min(w.levels.at[p.instance], LEVELS - 1u);
-    return p.primitive - w.meshLevels.at[level].firstPrimitive < w.meshLevels.at[level].primitiveCount;
+    uint shown = w.levels.at[p.instance], level = w.instances.at[p.instance].mesh * LEVELS + min(shown, LEVELS - 1u);
+    return shown < LEVELS && p.primitive - w.meshLevels.at[level].firstPrimitive < w.meshLevels.at[level].primitiveCount;
 }
 
 // Of where a segment ends and where a ray along it meets something there, relative to its length and at right angles to what is met: the terms

@@ -29,6 +29,7 @@ void main() {
     const uint facingCullDisable = 1u;
     InstanceRecord instance = w.instances.at[i];
     uint64_t shown = 0ul;
-    if ((instance.flags & INSTANCE_HIDDEN) == 0u) shown = Addresses(w.bottomLevels).at[instance.mesh * LEVELS + w.levels.at[i]];
+    bool isShown = (instance.flags & INSTANCE_HIDDEN) == 0u && w.levels.at[i] < LEVELS;
+    if (isShown) shown = Addresses(w.bottomLevels).at[instance.mesh * LEVELS + w.levels.at[i]];
     push.instances.at[i] = QueryInstance(instance.toWorld, 0xff000000u, facingCullDisable << 24, shown);
 }

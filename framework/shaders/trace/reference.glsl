@@ -32,9 +32,11 @@ vec3 pointToGrid(vec4 x, vec4 y, vec4 z, vec3 point) {
 }
 vec3 directionToGrid(vec4 x, vec4 y, vec4 z, vec3 d) { return vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d)); }
 
-// The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing. Without triangles: straight back.
+// The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing. Without triangles, or beyond all levels (which is how
+// passes hide an instance): straight back.
 uint rootOf(World w, uint instance, uint mesh) {
-    uint root = w.roots.at[mesh * LEVELS + w.levels.at[instance]];
+    uint level = w.levels.at[instance], root = REF_NONE;
+    if (level < LEVELS) root = w.roots.at[mesh * LEVELS + level];
     return root == REF_NONE ? REF_BACK : root;
 }
 

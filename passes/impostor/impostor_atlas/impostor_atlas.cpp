@@ -13,6 +13,7 @@ enum class Arrangement { full, hemi, cross, star };  // ATLAS_*
 enum class Attributes { paper, matched };
 
 struct ImpostorAtlas final : Pass {
+    In<World>          pose{this, "pose", "the scene as meshes that deform are baked in it; unwired: as in frame 0", Need::optional};
     Out<Atlases>       atlases{this, "atlases", "views of each mesh, with their mipmaps"};
     Out<Buffer<uint>>  bytes{this, "bytes", "that they take: 64 bits, the low word first", Count::fixed(2)};
     Param<std::string> mesh{this, "mesh", "", "name of the only mesh that is baked; empty: all that instances show"};
@@ -32,7 +33,7 @@ struct ImpostorAtlas final : Pass {
             throw Error("an impostor_atlas has a resolution of " + std::to_string(int(resolution)) + ", which is no power of 2",
                         "set \"resolution\" to " + std::to_string(std::bit_floor(std::uint32_t(int(resolution)))));
         const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene(), mesh, "impostor_atlas");
-        const Memory objects = frame.objects();
+        const Memory objects = frame.objects(pose);
         std::vector<Memory> memories{objects};
         Atlases made{.objects = 0,
                      .meshes = std::uint32_t(frame.scene().meshes.size()),

@@ -8,16 +8,29 @@
 #include "numbering.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Totals { uint64_t at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Words { uint at[]; };
 
 // Distance over radius from 1 / (2 N) of which on nothing is drawn anyway.
 const float NEAREST = 1e-3;
 
+float nearSide(float radius, float scale, float distance) { return max(distance - scale * radius, NEAREST * scale * radius); }
+
+/// log2 of finest texels per pixel, where the object is nearest.
+float finestTexels(World w, Impostors made, float radius, float scale, float distance) {
+    float pixel = w.camera.orthographic != 0u ? w.camera.pixelAngle : nearSide(radius, scale, distance) * w.camera.pixelAngle;
+    return log2(pixel / (scale * texelSide(made, radius, 0u)));
+}
+
 float wishedLevel(World w, Impostors made, float radius, float scale, float distance) {
     if (params.level == level_fixed) return params.bias;
-    float near = max(distance - scale * radius, NEAREST * scale * radius);
-    if (params.level == level_distance) return log2(near / (scale * radius)) + params.bias;
-    float pixel = w.camera.orthographic != 0u ? w.camera.pixelAngle : near * w.camera.pixelAngle;
-    return log2(pixel / (scale * texelSide(made, radius, 0u))) - 0.25 + params.bias;  // a little finer than pixels, so that no pixel is left out
+    if (params.level == level_distance) return log2(nearSide(radius, scale, distance) / (scale * radius)) + params.bias;
+    return finestTexels(w, made, radius, scale, distance) - 0.25 + params.bias;  // a little finer than pixels, so that no pixel is left out
+}
+
+/// By the rule of lod_select, an impostor being a level whose error is the side of its texels.
+bool isFineEnough(float texels, bool wasDrawn) {
+    float least = -log2(max(params.pixelError, 1e-30));
+    return params.pixelError == 0.0 || texels > least + (wasDrawn ? -params.hysteresis : params.hysteresis);
 }
 
 /// The wish rounded down, but the level of last frame as long as it isn't `hysteresis` beyond its borders.
@@ -54,7 +67,10 @@ void main() {
     if (dot(-way, w.camera.forward) < -scale * object.radius) isDrawn = false;
 
     bool isKnown = instance < levelsCount();
-    uint level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), isKnown ? levels(instance) : 0u, made.levels - 1u);
+    uint last = isKnown ? levels(instance) : 0u;
+    bool wasDrawn = last != 0u && historyValid();
+    if (!isFineEnough(finestTexels(w, made, object.radius, scale, length(way)), wasDrawn)) isDrawn = false;
+    uint level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), last, made.levels - 1u);
     vec3 towards = w.camera.orthographic != 0u ? -w.camera.forward : safeNormalize(way, -w.camera.forward);
     uint views = isDrawn ? keptViews(made, placement, towards) : 0u;
 
@@ -66,7 +82,10 @@ void main() {
     }
     uint coarser = 0u;
     while (coarser < 7u && sums.at[coarser] > uint64_t(params.tiles)) ++coarser;
-    if (isKnown && isDrawn) storeLevels(instance, level + 1u);
+    if (isKnown) storeLevels(instance, isDrawn ? level + 1u : 0u);
+    Words left = Words(uint64_t(rest().levels)), changed = Words(uint64_t(rest().levelsChanged));
+    left.at[instance] = isDrawn ? LEVELS : w.levels.at[instance];
+    if (isDrawn != wasDrawn || !historyValid() || (instance == 0u && w.levelsChanged.at[0] != 0u)) atomicOr(changed.at[0], 1u);
     level = min(level + coarser, made.levels - 1u);
     storeDrawn(instance, Drawn(level, views, bitCount(views) * tilesInView(made, level), 0u));
 }

@@ -15,6 +15,7 @@ enum class Atomics { wide, pair };
 struct ImpostorForwardMap final : Pass {
     In<World>                 world{this, "world", "the scene: camera, and where its instances stand"};
     In<Impostors>             impostors{this, "impostors", "of the meshes: instances of those that were baked are drawn"};
+    Out<World>                rest{this, "rest", "the scene without the instances that are drawn as impostors"};
     Out<Buffer<Surfel>>       surfels{this, "surfels", "what each pixel shows of them", Count::perPixel()};
     Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
     State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
@@ -23,11 +24,14 @@ struct ImpostorForwardMap final : Pass {
     Scratch<Buffer<uint>>     sums{this, "sums", "tiles of 64 instances each, then of all before them", Count::reserved()};
     Scratch<Buffer<uint>>     shown{this, "shown", "numbers of the tiles that may be seen", Count::reserved()};
     Scratch<Buffer<SplatKey>> keys{this, "keys", "nearest texel of each pixel", Count::perPixel()};
+    Param<float>              pixelError{this, "pixelError", 0, {0, 1000},
+                                         "an instance is drawn as its impostor where the finest texels are smaller than so many pixels, and left to geometry where it is "
+                                         "nearer; 0: all are drawn, however near"};
     Param<LevelRule>          level{this, "level", LevelRule::footprint, {"footprint", "distance", "fixed"},
                                     "of an instance: whose texels are nearly as wide as a pixel; log2 of distance over radius, whatever the resolution of image and "
                                     "impostor (RiLoD, section 3.3); the same for all"};
     Param<float>              bias{this, "bias", 0, {-16, 16}, "added to the level; of fixed: the level"};
-    Param<float>              hysteresis{this, "hysteresis", 0.15f, {0, 1}, "levels by which the wish has to pass a border before the level changes"};
+    Param<float>              hysteresis{this, "hysteresis", 0.15f, {0, 1}, "levels by which the wish has to pass a border before the level changes, or geometry takes over"};
     Param<float>              viewLimit{this, "viewLimit", -0.3f, {-1, 1}, "least cosine between a view's direction and the camera's for it to be drawn"};
     Param<float>              tolerance{this, "tolerance", 1.5f, {0, 16},
                                         "texel sides by which depths may differ and count as one surface, of which the texel that was seen most frontally wins; "
@@ -45,6 +49,11 @@ struct ImpostorForwardMap final : Pass {
     void execute(Frame& frame) override {
         const std::uint32_t instances = frame.valueOf(world).instanceCount;
         const std::uint32_t groups = (instances + 63) / 64;
+        const Memory levelsLeft = frame.upload(std::vector<std::uint32_t>(instances + 1), "levels");  // and levelsChanged
+        World left = frame.valueOf(world);
+        left.levels = levelsLeft.address;
+        left.levelsChanged = left.levels + instances * sizeof(std::uint32_t);
+        frame.provide(rest, std::as_bytes(std::span(&left, 1)), levelsLeft.keep);
         frame.reserve(drawn, instances);
         frame.reserve(sums, groups);
         frame.reserve(shown, std::uint32_t(int(tiles)));
