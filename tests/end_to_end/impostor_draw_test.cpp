@@ -261,7 +261,7 @@ TEST_F(ImpostorDraw, GeometryHandsOver) {
     Body body(1);
     body.sphere(0.5);
     std::vector<glm::vec3> places;
-    for (int i = 0; i < 12; ++i) places.push_back({1.3f * float(i % 2) - 0.65f, 0, -3.0f * float(i / 2)});
+    for (int i = 0; i < 12; ++i) places.push_back({1.3f * float(i % 2) - 0.65f, 0, 3 - 3.0f * float(i / 2)});
     const Path model = body.write(folder.path, "balls", places);
     OrderedJson passes = {{"all", {{"type", "visibility"}, {"in", {{"world", "scene"}}}, {"set", {{"film", "centre"}}}}},
                           {"bake", {{"type", "impostor_bake"}, {"set", {{"resolution", 64}, {"points", 0}}}}},
