@@ -8,12 +8,17 @@ const float SAME_CHART = 0.125;  // difference of texture coordinates up to whic
 
 uint countOf(uint counts, uint place) { return (counts >> (4u * place)) & 15u; }
 
-/// The place with the largest count; of equal ones the first.
-uint commonestPlace(uint counts) {
-    uint best = 0u;
-    for (uint i = 1u; i < PALETTE; ++i) best = countOf(counts, i) > countOf(counts, best) ? i : best;
+/// The place with the largest count; of equal ones the first from `first` on, which whoever asks for many texels turns from one to the next, so that no
+/// material wins all draws.
+uint commonestPlace(uint counts, uint first) {
+    uint best = first % PALETTE;
+    for (uint i = 1u; i < PALETTE; ++i) {
+        uint place = (first + i) % PALETTE;
+        best = countOf(counts, place) > countOf(counts, best) ? place : best;
+    }
     return best;
 }
+uint commonestPlace(uint counts) { return commonestPlace(counts, 0u); }
 
 /// Shares, which sum to 1, as 15ths that sum to 15: the largest remainders are rounded up, and no share of half a 15th or more is lost.
 uint roundShares(float shares[PALETTE]) {
@@ -45,8 +50,8 @@ uint roundShares(float shares[PALETTE]) {
     return bits;
 }
 
-/// `resolution`: of the level that the four are of, texels a side.
-ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution) {
+/// `resolution`: of the level that the four are of, texels a side. `first`: of commonestPlace, for the texel's own material.
+ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution, uint first) {
     ImpostorTexel made = emptyTexel();
     for (int i = 0; i < 4; ++i)
         if (isSeen(t[i])) made.depth = min(made.depth, t[i].depth);
@@ -69,7 +74,7 @@ ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution) {
     made.counts = roundShares(shares);
 
     // Texture coordinates are those of the material that most of it has, where it is nearest, with what lies beside it on the same chart.
-    uint place = commonestPlace(made.counts);
+    uint place = commonestPlace(made.counts, first);
     int nearest = -1;
     bool found = false;
     for (int i = 0; i < 4; ++i) {
@@ -97,3 +102,4 @@ ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution) {
     made.material = t[nearest].material;
     return made;
 }
+ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution) { return reduceTexels(t, resolution, 0u); }

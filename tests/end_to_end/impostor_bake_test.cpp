@@ -540,7 +540,8 @@ TEST_F(ImpostorBake, CompressionKeepsWhatItMust) {
                     worstDensity = std::max(worstDensity, double(std::abs(a.density - b.density)));
                     const double lengthA = glm::length(glm::dvec3(a.normal)), lengthB = glm::length(glm::dvec3(b.normal));
                     worstSpread = std::max(worstSpread, std::abs(std::sqrt(std::max(0.0, 1 - lengthA)) - std::sqrt(std::max(0.0, 1 - lengthB))));
-                    if (level == 0) angles.push_back(glm::degrees(std::acos(std::min(1.0, glm::dot(glm::dvec3(a.normal), glm::dvec3(b.normal)) / (lengthA * lengthB)))));
+                    const double cosine = glm::dot(glm::dvec3(a.normal), glm::dvec3(b.normal)) / (lengthA * lengthB);
+                    if (level == 0) angles.push_back(glm::degrees(std::acos(std::min(1.0, cosine))));
                 }
             }
         }
@@ -600,7 +601,8 @@ TEST_F(ImpostorBake, SecondRunFindsWhatTheFirstBaked) {
     other.material(0)["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0, 0, 1}}, {"roughnessFactor", 0.3}};
     EXPECT_TRUE(same(raw, bake(other, "painted", {}, 0)));
     body(0.7).write(folder.path, "before");
-    writeFile(folder.path / "two.json", OrderedJson{{"format", 1}, {"models", {{"before", {{"file", "before.gltf"}}}, {"ring", {{"file", "ring.gltf"}}}}}}.dump());
+    const OrderedJson models = {{"before", {{"file", "before.gltf"}}}, {"ring", {{"file", "ring.gltf"}}}};
+    writeFile(folder.path / "two.json", OrderedJson{{"format", 1}, {"models", models}}.dump());
     Baked renumbered(folder.path / "two.json", 6, {{"mesh", "ring"}, {"cache", true}});
     std::vector<ShownTexel> found = renumbered.texels(1);
     EXPECT_EQ(raysOf(renumbered.frames()), 0u);

@@ -159,9 +159,10 @@ void addLod(CLI::App& app, std::function<int()>& run) {
     const auto arguments = std::make_shared<LodArguments>();
     Command command(app, "lod", "Builds levels of detail that keep UVs, and writes them into a copy of a model; bakes its impostors.");
     command.option("MODEL", arguments->model, "a model (.gltf, .glb)").required();
-    command.option("--out", arguments->out, "file to write (.glb); with --impostor it may be left out, and no levels are built").check([](const std::string& name) {
-        return Path(name).extension() == ".glb" ? std::string() : "\"" + name + "\" must end in .glb: that is what is written";
-    });
+    command.option("--out", arguments->out, "file to write (.glb); with --impostor it may be left out, and no levels are built")
+        .check([](const std::string& name) {
+            return Path(name).extension() == ".glb" ? std::string() : "\"" + name + "\" must end in .glb: that is what is written";
+        });
     command.option("--levels", arguments->options.chain.levels, "how many there are to be, the finest included (4)")
         .within(2, maxLevels);
     command.option("--ratio", arguments->options.chain.ratio, "triangles of a level over those of the next: 2 or 4 (2)")
