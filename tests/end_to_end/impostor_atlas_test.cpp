@@ -416,6 +416,41 @@ TEST_F(ImpostorAtlas, TheNearestOfManyIsShown) {
     }
 }
 
+// From between views: a step of parallax brings what three of them show nearer to where it is, and relief nearer still.
+TEST_F(ImpostorAtlas, ParallaxMovesThingsToWhereTheyAre) {
+    writeModel(folder.path, "bench", bench());
+    std::array<double, 3> apart{}, uncovered{}, shown{};
+    for (int i = 0; i < 6; ++i) {
+        const double height = 1 - (2 * i + 1) / 6.0, turn = 2.39996323 * i, side = std::sqrt(1 - height * height);
+        const Point view(side * std::cos(turn), height, side * std::sin(turn)), middle(0, 0.1, 0);
+        Frames frames(scene("bench", lookAlong(middle + 10.0 * view, middle, 2.8)), {96, 96},
+                      graph({{"across", 8}, {"resolution", 128}}, "impostor_octahedral"), ports());
+        for (const std::size_t kind : {0, 1, 2}) {
+            frames.set("draw.parallax", Json(std::array{"off", "step", "relief"}[kind]));
+            frames.run();
+            const ImageData depth = frames.image("hits.depth");
+            const std::vector<Seen> seen = seenIn(frames);
+            for (std::size_t p = 0; p < seen.size(); ++p) {
+                const bool isThere = depth.values[p] > 0, isShown = seen[p].instance != nothing;
+                uncovered[kind] += isThere != isShown;
+                if (!isThere || !isShown) continue;
+                apart[kind] += std::abs(seen[p].depth - depth.values[p]);
+                ++shown[kind];
+            }
+        }
+    }
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+        apart[kind] /= shown[kind];
+        uncovered[kind] /= shown[kind];
+        std::printf("%s: depths %.4f apart in the mean, %.4f of the pixels wrongly covered\n", std::array{"off", "step", "relief"}[kind], apart[kind],
+                    uncovered[kind]);
+    }
+    EXPECT_LT(apart[1], 0.7 * apart[0]);
+    EXPECT_LT(apart[2], 0.5 * apart[1]);
+    EXPECT_LT(uncovered[1], 0.7 * uncovered[0]);
+    EXPECT_LT(uncovered[2], 0.7 * uncovered[1]);
+}
+
 // Each pixel is asked along its own ray, wherever that crosses pixel and lens: the one of visibility.
 TEST_F(ImpostorAtlas, RaysAreThoseOfVisibility) {
     writeSphere(folder.path / "ball.gltf", 96, 48);

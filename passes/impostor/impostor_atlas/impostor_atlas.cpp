@@ -13,19 +13,21 @@ enum class Arrangement { full, hemi, cross, star };  // ATLAS_*
 enum class Attributes { paper, matched };
 
 struct ImpostorAtlas final : Pass {
-    In<World>          pose{this, "pose", "the scene as meshes that deform are baked in it; unwired: as in frame 0", Need::optional};
-    Out<Atlases>       atlases{this, "atlases", "views of each mesh, with their mipmaps"};
-    Out<Buffer<uint>>  bytes{this, "bytes", "that they take: 64 bits, the low word first", Count::fixed(2)};
-    Param<std::string> mesh{this, "mesh", "", "name of the only mesh that is baked; empty: all that instances show"};
-    Param<Arrangement> arrangement{this, "arrangement", Arrangement::full, {"full", "hemi", "cross", "star"},
-                                   "directions that a mesh is seen from, full: a grid over the octahedral map of the sphere; hemi: one over that of the upper "
-                                   "hemisphere; cross: both sides of three cards at right angles; star: of three upright cards and a level one"};
-    Param<int>         across{this, "across", 16, {2, 64}, "of full and hemi: views a side of the grid"};
-    Param<int>         resolution{this, "resolution", 128, {16, 1024},
-                          "texels a side of a view at its finest level, a power of 2; with mipmaps a texel takes 10.7 bytes, 21.3 with matched attributes"};
-    Param<Attributes>  attributes{this, "attributes", Attributes::matched, {"paper", "matched"},
-                                 "what is kept, paper: base colour, normal and alpha, all else being the same everywhere: roughness 0.7, metallic 0, no "
-                                 "emission, depth that of the view's plane; matched: depth, roughness, metallic and emission as well"};
+    In<World>             pose{this, "pose", "the scene as meshes that deform are baked in it; unwired: as in frame 0", Need::optional};
+    Out<Atlases>          atlases{this, "atlases", "views of each mesh, with their mipmaps"};
+    Out<Buffer<uint>>     bytes{this, "bytes", "that they take: 64 bits, the low word first", Count::fixed(2)};
+    Scratch<Buffer<uint>> counts{this, "counts", "texels of each alpha, in 255ths, of each view and level of a mesh", Count::reserved()};
+    Scratch<Buffer<uint>> limits{this, "limits", "alpha, in 255ths, that as many texels of a level reach as do one half at the finest", Count::reserved()};
+    Param<std::string>    mesh{this, "mesh", "", "name of the only mesh that is baked; empty: all that instances show"};
+    Param<Arrangement>    arrangement{this, "arrangement", Arrangement::full, {"full", "hemi", "cross", "star"},
+                                      "directions that a mesh is seen from, full: a grid over the octahedral map of the sphere; hemi: one over that of the "
+                                      "upper hemisphere; cross: both sides of three cards at right angles; star: of three upright cards and a level one"};
+    Param<int>            across{this, "across", 16, {2, 64}, "of full and hemi: views a side of the grid"};
+    Param<int>            resolution{this, "resolution", 128, {16, 1024},
+                             "texels a side of a view at its finest level, a power of 2; with mipmaps a texel takes 10.7 bytes, 21.3 with matched attributes"};
+    Param<Attributes>     attributes{this, "attributes", Attributes::matched, {"paper", "matched"},
+                                    "what is kept, paper: base colour, normal and alpha, all else being the same everywhere: roughness 0.7, metallic 0, no "
+                                    "emission, depth that of the view's plane; matched: depth, roughness, metallic and emission as well"};
     ImpostorAtlas() { cadence = Cadence::onChange; }
 
     void execute(Frame& frame) override {
@@ -33,8 +35,11 @@ struct ImpostorAtlas final : Pass {
             throw Error("an impostor_atlas has a resolution of " + std::to_string(int(resolution)) + ", which is no power of 2",
                         "set \"resolution\" to " + std::to_string(std::bit_floor(std::uint32_t(int(resolution)))));
         const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene(), mesh, "impostor_atlas");
+<<<<<<< HEAD
         const Memory objects = frame.objects(pose);
         std::vector<Memory> memories{objects};
+=======
+>>>>>>> d3a44f9acb1e89fc5d6f352e7c2a57139aa5cba0
         Atlases made{.objects = 0,
                      .meshes = std::uint32_t(frame.scene().meshes.size()),
                      .arrangement = std::uint32_t(Arrangement(arrangement)),
@@ -46,6 +51,11 @@ struct ImpostorAtlas final : Pass {
         if (texels > mostTexels)
             throw Error("an impostor_atlas has " + std::to_string(texels) + " texels a mesh, more than " + std::to_string(mostTexels),
                         "lower \"across\" or \"resolution\"");
+        const std::uint32_t groups = viewsOf(made) * made.levels;
+        frame.reserve(counts, groups * 256);
+        frame.reserve(limits, groups);
+        const Memory objects = frame.objects(pose);
+        std::vector<Memory> memories{objects};
         std::vector<AtlasRecord> records(made.meshes);
         for (const std::uint32_t m : baked) {
             memories.push_back(frame.upload(std::vector<std::byte>(perMesh), "atlas texels"));
@@ -66,7 +76,10 @@ struct ImpostorAtlas final : Pass {
             frame.dispatch(shader, {viewsOf(made) * made.resolution, made.resolution}, {m, low, high});
             for (std::uint32_t level = 1; level < made.levels; ++level)
                 frame.dispatch("coarsen.comp", {viewsOf(made) * (made.resolution >> level), made.resolution >> level}, {m, low, high, level});
-            frame.dispatch("keep_coverage.comp", {viewsOf(made), 1}, {m, low, high});
+            frame.fill(counts, 0);
+            frame.dispatch("keep_coverage.comp", {std::uint32_t(texels), 1}, {m, low, high, 0});
+            frame.dispatch("keep_coverage.comp", {groups, 1}, {m, low, high, 1});
+            frame.dispatch("keep_coverage.comp", {std::uint32_t(texels), 1}, {m, low, high, 2});
         }
     }
 

@@ -4,6 +4,7 @@
 #include "pass.glsl"
 #include "impostor/reduce.glsl"
 #include "impostor/seen_normal.glsl"
+#include "base/random.glsl"
 #include "store_texel.glsl"
 #include "trace/reference.glsl"
 #include "trace/trace.glsl"
@@ -83,7 +84,7 @@ void pathEnd(Path p, ivec2 pixel) {
     ImpostorView v = impostorView(work.texels.views, p.view);
     ImpostorTexel samples[4];
     for (int i = 0; i < 4; ++i) samples[i] = sampleOf(w, work, object, v, p.hits[i]);
-    ImpostorTexel t = reduceTexels(samples, 2u * work.texels.resolution);
+    ImpostorTexel t = reduceTexels(samples, 2u * work.texels.resolution, pcg4d(uvec4(p.texel, p.view, 0u)).x);
     storeTexel(work, 0u, p.view, p.texel, t, t.material);
 }
 
