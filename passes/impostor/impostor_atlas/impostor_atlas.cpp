@@ -35,11 +35,6 @@ struct ImpostorAtlas final : Pass {
             throw Error("an impostor_atlas has a resolution of " + std::to_string(int(resolution)) + ", which is no power of 2",
                         "set \"resolution\" to " + std::to_string(std::bit_floor(std::uint32_t(int(resolution)))));
         const std::vector<std::uint32_t> baked = bakedMeshes(frame.scene(), mesh, "impostor_atlas");
-<<<<<<< HEAD
-        const Memory objects = frame.objects(pose);
-        std::vector<Memory> memories{objects};
-=======
->>>>>>> d3a44f9acb1e89fc5d6f352e7c2a57139aa5cba0
         Atlases made{.objects = 0,
                      .meshes = std::uint32_t(frame.scene().meshes.size()),
                      .arrangement = std::uint32_t(Arrangement(arrangement)),
@@ -58,7 +53,7 @@ struct ImpostorAtlas final : Pass {
         std::vector<Memory> memories{objects};
         std::vector<AtlasRecord> records(made.meshes);
         for (const std::uint32_t m : baked) {
-            memories.push_back(frame.upload(std::vector<std::byte>(perMesh), "atlas texels"));
+            memories.push_back(frame.allocate(perMesh, "atlas texels"));
             const Sphere sphere = sphereAround(frame.sceneRecords(), m);
             records[m] = {.shades = memories.back().address,
                           .matters = made.isMatched != 0 ? memories.back().address + texels * sizeof(glm::uvec2) : 0,
