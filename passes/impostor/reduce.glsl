@@ -20,8 +20,9 @@ uint commonestPlace(uint counts, uint first) {
 }
 uint commonestPlace(uint counts) { return commonestPlace(counts, 0u); }
 
-/// Shares, which sum to 1, as 15ths that sum to 15: the largest remainders are rounded up, and no share of half a 15th or more is lost.
-uint roundShares(float shares[PALETTE]) {
+/// Shares, which sum to 1, as 15ths that sum to 15: the largest remainders are rounded up, of equal ones the first from `first` on, and no share of half a
+/// 15th or more is lost.
+uint roundShares(float shares[PALETTE], uint first) {
     int counts[PALETTE], sum = 0;
     for (uint i = 0u; i < PALETTE; ++i) {
         float ideal = 15.0 * shares[i];
@@ -34,11 +35,12 @@ uint roundShares(float shares[PALETTE]) {
         uint best = PALETTE;
         float most = -1e30;
         for (uint i = 0u; i < PALETTE; ++i) {
-            float excess = float(change) * (15.0 * shares[i] - float(counts[i]));
-            bool may = shares[i] > 0.0 && (change > 0 || counts[i] > 1);
+            uint place = (first + i) % PALETTE;
+            float excess = float(change) * (15.0 * shares[place] - float(counts[place]));
+            bool may = shares[place] > 0.0 && (change > 0 || counts[place] > 1);
             if (may && excess > most) {
                 most = excess;
-                best = i;
+                best = place;
             }
         }
         if (best == PALETTE) break;
@@ -50,7 +52,7 @@ uint roundShares(float shares[PALETTE]) {
     return bits;
 }
 
-/// `resolution`: of the level that the four are of, texels a side. `first`: of commonestPlace, for the texel's own material.
+/// `resolution`: of the level that the four are of, texels a side. `first`: of commonestPlace and roundShares.
 ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution, uint first) {
     ImpostorTexel made = emptyTexel();
     for (int i = 0; i < 4; ++i)
@@ -71,7 +73,7 @@ ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution, uint first) {
     if (sum == 0.0) return emptyTexel();
     made.normal /= sum;  // not made unit again: lengths multiply up only as long as nobody does
     for (uint p = 0u; p < PALETTE; ++p) shares[p] /= 15.0 * sum;
-    made.counts = roundShares(shares);
+    made.counts = roundShares(shares, first);
 
     // Texture coordinates are those of the material that most of it has, where it is nearest, with what lies beside it on the same chart.
     uint place = commonestPlace(made.counts, first);

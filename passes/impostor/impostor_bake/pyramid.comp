@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "impostor/reduce.glsl"
+#include "base/random.glsl"
 #include "store_texel.glsl"
 
 void main() {
@@ -12,5 +13,5 @@ void main() {
     uvec2 texel = uvec2(uint(pixel().x) % n, pixel().y);
     ImpostorTexel children[4];
     for (uint i = 0u; i < 4u; ++i) children[i] = texelAt(work.texels, work.mesh, level - 1u, view, 2u * texel + uvec2(i & 1u, i >> 1));
-    storeTexel(work, level, view, texel, reduceTexels(children, 2u * n), NONE);
+    storeTexel(work, level, view, texel, reduceTexels(children, 2u * n, pcg4d(uvec4(texel, view, level)).x), NONE);
 }
