@@ -126,7 +126,8 @@ private:
             if (!isFile(path)) path = namedPath(sceneFolder(), file);
             if (!isFile(path)) {
                 problems_.add(member->where(), fmt::format("there is no model \"{}\" beside the scene file", file),
-                              "generated models lie in the build's scenes folder");
+                              "generated models lie in the build's scenes folder, large ones once they were asked for: "
+                              "cmake --build --preset release --target scene_NAME");
                 path.clear();
             }
             models_.push_back({name, path, member->where(), choices});

@@ -52,6 +52,8 @@ uint roundShares(float shares[PALETTE], uint first) {
     return bits;
 }
 
+uint roundShares(float shares[PALETTE]) { return roundShares(shares, 0u); }
+
 /// `resolution`: of the level that the four are of, texels a side. `first`: of commonestPlace and roundShares.
 ImpostorTexel reduceTexels(ImpostorTexel t[4], uint resolution, uint first) {
     ImpostorTexel made = emptyTexel();

@@ -220,12 +220,14 @@ TEST(ImpostorFailures, SeamsOfTextureCoordinates) {
     EXPECT_LE(coarser, 2 * finest + 4);
 }
 
-// Cells smaller than a texel in eight materials.
+// Cells smaller than a texel in eight materials. The mean colour is the same from afar; samples of geometry that far apart would meet some materials alone.
 TEST(ImpostorFailures, ManyMaterialsInATexel) {
     Pair pair("impostor_checker", "checker");
+    pair.look();
+    const ImageData truth = pair.truth();
     for (int level = 0; level <= 4; ++level) {
-        pair.look(std::pow(2, level));
-        const ImageData drawn = pair.drawn(), truth = pair.truth();
+        pair.look(std::pow(2, level), 0, 0, false);
+        const ImageData drawn = pair.drawn();
         for (int c = 0; c < 3; ++c) {
             const double share = sumOfChannel(drawn, c) / sumOfChannel(drawn, 3) / (sumOfChannel(truth, c) / sumOfChannel(truth, 3));
             std::printf("%d times as far: channel %d %.4f of the truth\n", 1 << level, c, share);
@@ -310,7 +312,6 @@ TEST(ImpostorFailures, NormalsBelowATexel) {
 // From one level to far away, in steps of a quarter of a pixel.
 TEST(ImpostorFailures, FarAway) {
     Pair pair("teapot", "teapot");
-    pair.set("draw.blend", Json(true));  // as truth here is more than one sample a pixel
     const auto flicker = [&](double distance, bool truth) {
         double change = 0;
         std::optional<ImageData> last;
@@ -332,10 +333,11 @@ TEST(ImpostorFailures, FarAway) {
     }
 }
 
-TEST(ImpostorFailures, MoreViewsAreNoWorse) {
+// What more views are for is what fewer don't see.
+TEST(ImpostorFailures, MoreViewsSeeMore) {
     double last = 1e30;
     for (const int views : {6, 12, 18}) {
-        Pair pair("bunny", "bunny", views);
+        Pair pair("impostor_torus", "torus", views);
         pair.around(8);
         double error = 0;
         for (std::uint32_t frame = 0; frame < 8; ++frame) {
@@ -343,7 +345,7 @@ TEST(ImpostorFailures, MoreViewsAreNoWorse) {
             error += errorOf(pair.drawn(), pair.truthAtCentres()) / 8;
         }
         std::printf("%d views: error %.5f\n", views, error);
-        EXPECT_LT(error, last * 1.02);
+        EXPECT_LT(error, last);
         last = error;
     }
 }

@@ -9,7 +9,8 @@ struct HoleFill final : Pass {
     In<World>               world{this, "world", "the scene: its camera"};
     In<Buffer<Surfel>>      surfels{this, "surfels", "what pixels show, with holes"};
     Out<Buffer<Surfel>>     surfelsOut{this, "surfels", "the same with holes filled", Count::perPixel()};
-    Out<Image>              filled{this, "filled", "1: filled from its block, 2: as part of something thin or of a crack, 0: as it was", Format::r32f, Need::optional};
+    Out<Image>              filled{this, "filled", "1: filled from its block, 2: as part of something thin or of a crack, 0: as it was", Format::r32f,
+                                   Need::optional};
     Scratch<Buffer<Surfel>> blocks{this, "blocks", "after the first stage", Count::perPixel()};
     Param<bool>             stage1{this, "stage1", true, "holes are filled from their block of pixels by a joint bilateral filter (RiLoD, section 3.4)"};
     Param<bool>             stage2{this, "stage2", true, "then what is thin is joined and what is cracked is closed, by its depth (RiLoD, section 3.4)"};

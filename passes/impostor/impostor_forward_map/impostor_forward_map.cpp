@@ -20,25 +20,29 @@ struct ImpostorForwardMap final : Pass {
     Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
     State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
     Scratch<Buffer<Drawn>>    drawn{this, "drawn", "what of each instance is drawn", Count::reserved()};
-    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser; in the end those of the frame and those that show", Count::fixed(16)};
+    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser; in the end those of the frame and those that show",
+                                     Count::fixed(16)};
     Scratch<Buffer<uint>>     sums{this, "sums", "tiles of 64 instances each, then of all before them", Count::reserved()};
     Scratch<Buffer<uint>>     shown{this, "shown", "numbers of the tiles that may be seen", Count::reserved()};
     Scratch<Buffer<SplatKey>> keys{this, "keys", "nearest texel of each pixel", Count::perPixel()};
     Param<float>              pixelError{this, "pixelError", 0, {0, 1000},
-                                         "an instance is drawn as its impostor where the finest texels are smaller than so many pixels, and left to geometry where it is "
-                                         "nearer; 0: all are drawn, however near"};
+                                         "an instance is drawn as its impostor where the finest texels are smaller than so many pixels, and left to "
+                                         "geometry where it is nearer; 0: all are drawn, however near"};
     Param<LevelRule>          level{this, "level", LevelRule::footprint, {"footprint", "distance", "fixed"},
-                                    "of an instance: whose texels are nearly as wide as a pixel; log2 of distance over radius, whatever the resolution of image and "
-                                    "impostor (RiLoD, section 3.3); the same for all"};
+                                    "of an instance: whose texels are nearly as wide as a pixel; log2 of distance over radius, whatever the resolution of "
+                                    "image and impostor (RiLoD, section 3.3); the same for all"};
     Param<float>              bias{this, "bias", 0, {-16, 16}, "added to the level; of fixed: the level"};
-    Param<float>              hysteresis{this, "hysteresis", 0.15f, {0, 1}, "levels by which the wish has to pass a border before the level changes, or geometry takes over"};
+    Param<float>              hysteresis{this, "hysteresis", 0.15f, {0, 1},
+                                         "levels by which the wish has to pass a border before the level changes, or geometry takes over"};
     Param<float>              viewLimit{this, "viewLimit", -0.3f, {-1, 1}, "least cosine between a view's direction and the camera's for it to be drawn"};
     Param<float>              tolerance{this, "tolerance", 1.5f, {0, 16},
-                                        "texel sides by which depths may differ and count as one surface, of which the texel that was seen most frontally wins; "
+                                        "texel sides by which depths may differ and count as one surface, of which the texel that was seen most "
+                                        "frontally wins; "
                                         "0: the nearest wins"};
     Param<int>                footprint{this, "footprint", 3, {1, 5}, "most pixels a side that a texel is spread over"};
     Param<bool>               backFaces{this, "backFaces", true, "texels that face away are left out before they can hide others; off: they stay"};
-    Param<float>              cutoff{this, "cutoff", 0.5f, {0.01f, 1}, "least share of a texel that the object has to cover for it to be drawn, if it isn't blended"};
+    Param<float>              cutoff{this, "cutoff", 0.5f, {0.01f, 1},
+                                     "least share of a texel that the object has to cover for it to be drawn, if it isn't blended"};
     Param<bool>               blend{this, "blend", false, "pixels keep the share of their texel that the object covers; off: all of it, or nothing"};
     Param<PixelPlace>         film{this, "film", PixelPlace::centre, {"centre", "frame"},
                                    "which place of a pixel decides what it shows: its centre, or one place for all pixels of a frame (film of visibility)"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A marble mourner, life-size, in triangles of a millimetre: what a scanner makes of a statue, ten million of them. It stands on a floor before a wall.
+// A marble mourner, life-size, in triangles of a millimetre: what a scanner makes of a statue, twelve million of them. It stands on a floor before a wall.
 #include "kit/glb.h"
 #include "kit/isosurface.h"
 #include "kit/marble.h"
@@ -28,8 +28,8 @@ Glb makeStatue() {
     glb.addNode("statue", glb.addMesh("statue", mesh, marble));
 
     Model floor{"floor", {}}, wall{"wall", {}};
-    floor.add(glb.addMaterial(glb.dressed({.name = "floor"}, paintMarbleFloor(carrara(), {{0.075f, 0.070f, 0.072f}, {0.34f, 0.31f, 0.28f}}, 5, 768))),
-              slab({-8, 0, -1.1f}, {16, 0, 0}, {0, 0, 9.1f}, marbleFloorSize));
+    floor.add(glb.addMaterial(glb.dressed({.name = "flagstones"}, paintAshlar({0.33f, 0.31f, 0.29f}, 7, 640))),
+              slab({-8, 0, -1.1f}, {16, 0, 0}, {0, 0, 9.1f}, ashlarSize));
     wall.add(glb.addMaterial(glb.dressed({.name = "limestone"}, paintAshlar({0.60f, 0.52f, 0.41f}, 3, 640))),
              slab({-8, 7.2f, -1.1f}, {16, 0, 0}, {0, -7.2f, 0}, ashlarSize));
     glb.addNode(floor);
