@@ -66,15 +66,17 @@ struct ImpostorAtlas final : Pass {
         const std::uint64_t taken = baked.size() * perMesh;
         frame.upload(bytes, std::as_bytes(std::span(&taken, 1)));
 
+        const std::uint32_t row = viewsOf(made) * made.resolution;  // what there are of texels is more than one row of workgroups may have
+        const glm::uvec2 allTexels(row, (texels + row - 1) / row);
         const auto low = std::uint32_t(objects.address), high = std::uint32_t(objects.address >> 32);
         for (const std::uint32_t m : baked) {
             frame.dispatch(shader, {viewsOf(made) * made.resolution, made.resolution}, {m, low, high});
             for (std::uint32_t level = 1; level < made.levels; ++level)
                 frame.dispatch("coarsen.comp", {viewsOf(made) * (made.resolution >> level), made.resolution >> level}, {m, low, high, level});
             frame.fill(counts, 0);
-            frame.dispatch("keep_coverage.comp", {std::uint32_t(texels), 1}, {m, low, high, 0});
+            frame.dispatch("keep_coverage.comp", allTexels, {m, low, high, 0});
             frame.dispatch("keep_coverage.comp", {groups, 1}, {m, low, high, 1});
-            frame.dispatch("keep_coverage.comp", {std::uint32_t(texels), 1}, {m, low, high, 2});
+            frame.dispatch("keep_coverage.comp", allTexels, {m, low, high, 2});
         }
     }
 

@@ -34,11 +34,12 @@ void main() {
     if (skip()) return;
     Atlases made = atlases();
     AtlasRecord object = made.objects.at[bakedMesh()];
-    uint i = uint(pixel().x);
     if (argument(3) == 1u) {
-        storeLimits(i, limitOf(made, i));
+        storeLimits(uint(pixel().x), limitOf(made, uint(pixel().x)));
         return;
     }
+    uint i = uint(pixel().y) * push.extent.x + uint(pixel().x);
+    if (i >= atlasIndex(made, made.levels, 0u, uvec2(0u))) return;
     uint level = levelOf(made, i), n = made.resolution >> level, view = (i - atlasIndex(made, level, 0u, uvec2(0u))) / (n * n);
     uint group = view * made.levels + level, shade = AtlasWords(object.shades).at[i].x, alpha = shade >> 24;
     if (argument(3) == 0u) {

@@ -47,15 +47,19 @@ void sampleLights(inout Path p, World w, uint i) {
     p.ray = shadowRay(w, p.shown.surface, l);
 }
 
-/// Materials take turns by their shares, which so need no weight.
+/// Each material has a direction of its own. With shadows there is one ray, so they take turns by their shares, and each has fewer.
 void sampleLobes(inout Path p, World w, uint i) {
-    Lobes lobes = p.lobes;
-    if (isMixed(p.shown)) lobes = lobesOf(w, p.shown, materialAt(p.shown, (float(i) + 0.5) / float(params.samples)));
-    BsdfSample next = bsdfSample(lobes.bsdf, lobes.chance, p.shown.surface.view, lattice3(i));
-    if (next.pdf == 0.0 || next.weight == vec3(0.0)) return;
-    float share = next.delta ? 1.0 : misWeight(next.pdf, environmentPdf(w, next.wi));
-    p.adds = next.weight * environmentRadiance(w, next.wi) * share;
-    p.ray = spawnRay(w, p.shown.surface, next.wi);
+    uint turn = materialAt(p.shown, (float(i) + 0.5) / float(params.samples));
+    for (uint m = 0u; m < p.shown.materials; ++m) {
+        if (params.shadows && m != turn) continue;
+        Lobes lobes = p.lobes;
+        if (isMixed(p.shown)) lobes = lobesOf(w, p.shown, m);
+        BsdfSample next = bsdfSample(lobes.bsdf, lobes.chance, p.shown.surface.view, lattice3(i));
+        if (next.pdf == 0.0 || next.weight == vec3(0.0)) continue;
+        float share = (params.shadows ? 1.0 : shareOf(p.shown, m)) * (next.delta ? 1.0 : misWeight(next.pdf, environmentPdf(w, next.wi)));
+        p.adds += next.weight * environmentRadiance(w, next.wi) * share;
+        p.ray = spawnRay(w, p.shown.surface, next.wi);
+    }
 }
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
