@@ -12,8 +12,9 @@ float placementScale(Placement p) { return pow(abs(placementDeterminant(p)), 1.0
 /// n, or what it becomes when it is turned towards the viewer until it is seen. Both unit.
 vec3 facing(vec3 n, vec3 view) { return safeNormalize(n + max(0.0, FACING_LEAST - dot(n, view)) * view, view); }
 
-/// `side`: of the texel, world units. Rays leave it from so far off that the coarse mesh which stands for the object elsewhere doesn't hide it from itself.
-Surface texelSurface(uint instance, uint material, vec3 position, vec3 normal, vec3 view, vec2 uv, float density, float side) {
+/// `side`: of the texel, world units. `front`: a front face is seen, and not one's back. Rays leave it from so far off that the coarse mesh which stands
+/// for the object elsewhere doesn't hide it from itself.
+Surface texelSurface(uint instance, uint material, vec3 position, vec3 normal, vec3 view, vec2 uv, float density, float side, bool front) {
     Surface s;
     s.view = view;
     s.position = position;
@@ -26,8 +27,8 @@ Surface texelSurface(uint instance, uint material, vec3 position, vec3 normal, v
     s.primitive = NONE;
     s.instance = instance;
     s.material = material;
-    s.frontFace = true;
-    s.frame = mat3(vec3(0.0), vec3(0.0), s.normal);
+    s.frontFace = front;
+    s.frame = mat3(vec3(0.0), vec3(0.0), front ? s.normal : -s.normal);
     s.density = density;
     return s;
 }

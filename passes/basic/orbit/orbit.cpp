@@ -11,8 +11,8 @@ struct Orbit final : Pass {
     In<World>    world{this, "world", "the scene"};
     Out<World>   worldOut{this, "world", "the scene seen from elsewhere: around the point that its camera has in focus"};
     Param<int>   directions{this, "directions", 64, {0, 4096},
-                          "frame 0 looks from a corner of a cube, which is farthest from faces and edges, those after it from so many directions less one that are "
-                          "spread evenly over the sphere, and then again; 0: from the camera's own, turned"};
+                          "frame 0 looks from a corner of a cube, which is farthest from faces and edges, those after it from so many directions less one "
+                          "that are spread evenly over the sphere, and then again; 0: from the camera's own, turned"};
     Param<float> turn{this, "turn", 0, {-360, 360}, "without directions: degrees around the vertical axis a frame"};
     Param<float> distance{this, "distance", 1, {0.001f, 1e6f}, "from the point in focus, as a multiple of the camera's"};
     PassThrough  off{this, world, worldOut};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stage 2, by depth alone (RiLoD, section 3.4, after the thin features of FidelityFX Super Resolution 2.2.1): a pixel whose like neighbours fill no square of
-// four is part of something thin; between two such, at most two pixels apart, it is continued. A pixel with like surfaces on five of its eight sides, all nearer
-// than what it shows, is part of a crack and is closed.
+// Stage 2, by depth alone (RiLoD, section 3.4, after the thin features of FidelityFX Super Resolution 2.2.1): a pixel whose like neighbours fill no
+// square of four is part of something thin; between two such, at most two pixels apart, it is continued. A pixel with like surfaces on five of its eight
+// sides, all nearer than what it shows, is part of a crack and is closed.
 #version 460
 #include "pass.glsl"
 #include "neighbour.glsl"

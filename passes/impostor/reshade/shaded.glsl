@@ -52,7 +52,8 @@ Shaded shadedAt(World w, ivec2 pixel) {
         material = impostors().objects.at[shown.mesh].palette[commonestPlace(shown.counts)];
     }
     float side = texelSide(impostors(), impostors().objects.at[shown.mesh].radius, level) * placementScale(placementOf(w, f.instance));
-    shown.surface = texelSurface(f.instance, material, position, unpackNormal(f.normal), view, unpackUv(f.uv), unpackDensity((f.measures >> 16) & 0xffu), side);
+    shown.surface = texelSurface(f.instance, material, position, unpackNormal(f.normal), view, unpackUv(f.uv), unpackDensity((f.measures >> 16) & 0xffu), side,
+                                 (flags & TEXEL_BACK) == 0u);
     return shown;
 }
 
@@ -108,7 +109,7 @@ Shaded shadedAt(World w, ivec2 pixel) {
     if (!isShown) return shown;
     vec3 view, position = seenPosition(w, pixel, shown.depth, view);
     float side = shown.depth * w.camera.pixelAngle;
-    shown.surface = texelSurface(shown.baked.instance, NONE, position, unpackNormal(shown.baked.normal), view, vec2(0.0), DENSITY_NONE, side);
+    shown.surface = texelSurface(shown.baked.instance, NONE, position, unpackNormal(shown.baked.normal), view, vec2(0.0), DENSITY_NONE, side, true);
     return shown;
 }
 
