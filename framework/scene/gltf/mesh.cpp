@@ -159,7 +159,7 @@ private:
         if (source_.mode == TINYGLTF_MODE_TRIANGLES) {
             if (indices.size() % 3 != 0) import_.note("vertices that make no whole triangle are left out");
             level_.triangles.resize(indices.size() / 3);
-            std::memcpy(level_.triangles.data(), indices.data(), level_.triangles.size() * sizeof(glm::uvec3));
+            if (!level_.triangles.empty()) std::memcpy(level_.triangles.data(), indices.data(), level_.triangles.size() * sizeof(glm::uvec3));
             return;
         }
         // glTF 2.0, section 3.7.2.1: triangle i of a strip and of a fan.
