@@ -6,6 +6,7 @@
 #include <passes/basic/film.h>
 #include <passes/impostor/atlas_instance.h>
 #include <passes/impostor/atlases.h>
+#include <passes/impostor/instance_items.h>
 #include <passes/impostor/surfel.h>
 
 namespace lodestir {
@@ -15,7 +16,7 @@ struct AtlasDrawing {
     In<Atlases>                    atlases;
     Out<Buffer<BakedSurface>>      surfaces;
     Scratch<Buffer<AtlasInstance>> drawn;
-    Scratch<Buffer<uint>>          sums, total;
+    InstanceItems                  blocks;
     Scratch<Buffer<NearKey>>       keys;
     FilmPlace                      place;
     Param<float>                   bias;
@@ -25,28 +26,22 @@ struct AtlasDrawing {
           atlases{pass, "atlases", "of the meshes: instances of those that were baked are drawn"},
           surfaces{pass, "surfaces", "what each pixel shows of them", Count::perPixel()},
           drawn{pass, "drawn", "where each instance is drawn", Count::reserved()},
-          sums{pass, "sums", "blocks of 64 instances each, then of all before them", Count::reserved()},
-          total{pass, "total", "blocks of the frame", Count::fixed(1)},
+          blocks{pass},
           keys{pass, "keys", "nearest instance of each pixel", Count::perPixel()},
           place{pass},
           bias{pass, "bias", 0, {-16, 16}, "added to the level of the mipmaps, whose texels are about as wide as a pixel"} {}
 
     /// `write`: the shader that writes the surfaces.
     void execute(Frame& frame, std::string_view write) {
-        const std::uint32_t instances = frame.valueOf(world).instanceCount, groups = (instances + 63) / 64;
+        const std::uint32_t instances = frame.valueOf(world).instanceCount;
         frame.reserve(drawn, instances);
-        frame.reserve(sums, groups);
+        blocks.reserve(frame, instances);
         frame.fill(keys, NONE);
         frame.dispatch("choose.comp", {instances, 1});
-        frame.dispatch("number.comp", {groups, 1}, {0});
-        frame.dispatch("number.comp", {1, 1}, {1});
-        frame.dispatch("number.comp", {groups, 1}, {2});
-        frame.dispatch("scatter.comp", {lanes, 1});
+        InstanceItems::number(frame, instances);
+        frame.dispatch("scatter.comp", {InstanceItems::lanes, 1});
         frame.dispatch(write, frame.size());
     }
-
-private:
-    static constexpr std::uint32_t lanes = 1 << 15;  // they walk through all blocks; how many these are only the device knows
 };
 
 }  // namespace lodestir

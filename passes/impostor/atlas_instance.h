@@ -8,8 +8,6 @@ LODESTIR_SHARED_BEGIN
 
 // Blocks of 8x8 pixels are numbered through the frame: instance after instance, in each row after row of the rectangle that it may be seen in.
 struct AtlasInstance {
-    uint first;   // block: the sum of the counts before
-    uint count;   // blocks; 0: the instance is drawn otherwise, or not at all
     uint corner;  // the first block's x, and its y (bits 16-31), in blocks
     uint shape;   // blocks across, and the level that is read (bits 16-31)
 };

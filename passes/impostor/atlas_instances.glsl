@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which blocks of pixels an instance's atlas is drawn in, and the blocks of a frame by number. After pass.glsl.
+// Which blocks of pixels an instance's atlas is drawn in. After pass.glsl.
 #include "impostor/atlas_texel.glsl"
+#include "impostor/instance_items.glsl"
 #include "impostor/sphere_on_film.glsl"
 
 const uint BLOCK = 8u;          // pixels a side
@@ -24,7 +25,8 @@ void chooseInstance(uint instance) {
     Placement placement = placementOf(w, instance);
     vec3 center = placePoint(placement, object.center);
     float volume = abs(placementDeterminant(placement));
-    AtlasInstance chosen = AtlasInstance(0u, 0u, 0u, 0u);
+    AtlasInstance chosen = AtlasInstance(0u, 0u);
+    uint blocks = 0u;
     vec4 bounds;
     if (object.radius > 0.0 && volume > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u &&
         sphereOnFilm(w, center, object.radius * mostScale(placement), bounds)) {
@@ -33,43 +35,10 @@ void chooseInstance(uint instance) {
         if (all(lessThanEqual(low, high))) {
             uvec2 first = uvec2(low) / BLOCK, shape = uvec2(high) / BLOCK - first + 1u;
             uint level = atlasLevel(w, made, object.radius * pow(volume, 1.0 / 3.0), distance(center, w.camera.position));
-            chosen = AtlasInstance(0u, shape.x * shape.y, first.x | first.y << 16, shape.x | level << 16);
+            chosen = AtlasInstance(first.x | first.y << 16, shape.x | level << 16);
+            blocks = shape.x * shape.y;
         }
     }
     storeDrawn(instance, chosen);
-}
-
-/// Each instance's first block: sums of 64 instances each (0), sums of these (1), and sums inside each (2).
-void numberBlocks(uint turn, uint group) {
-    uint first = group * 64u, end = min(first + 64u, drawnCount()), sum = 0u;
-    if (turn == 0u) {
-        for (uint i = first; i < end; ++i) sum += drawn(i).count;
-        storeSums(group, sum);
-    } else if (turn == 1u) {
-        for (uint i = 0u; i < sumsCount(); ++i) {
-            uint own = sums(i);
-            storeSums(i, sum);
-            sum += own;
-        }
-        storeTotal(0u, sum);
-    } else {
-        sum = sums(group);
-        for (uint i = first; i < end; ++i) {
-            AtlasInstance d = drawn(i);
-            d.first = sum;
-            storeDrawn(i, d);
-            sum += d.count;
-        }
-    }
-}
-
-/// The last instance whose first block is not after this one: by bisection.
-uint instanceOfBlock(uint block) {
-    uint low = 0u, high = drawnCount() - 1u;
-    while (low < high) {
-        uint middle = (low + high + 1u) / 2u;
-        if (drawn(middle).first <= block) low = middle;
-        else high = middle - 1u;
-    }
-    return low;
+    storeItems(instance, blocks);
 }

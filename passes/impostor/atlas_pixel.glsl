@@ -78,11 +78,11 @@ void scatterBlocks(uint lane, uint lanes) {
     uint inner = lane % BLOCK_PIXELS, walks = lanes / BLOCK_PIXELS, share = (total(0u) + walks - 1u) / walks;
     uint begin = lane / BLOCK_PIXELS * share, end = min(begin + share, total(0u));
     if (begin >= end) return;
-    uint instance = instanceOfBlock(begin);
-    AtlasInstance d = drawn(instance);
+    uint instance = instanceOfItem(begin);
     for (uint block = begin; block < end; ++block) {
-        while (block >= d.first + d.count) d = drawn(++instance);
-        uint across = d.shape & 0xffffu, within = block - d.first;
+        while (instance + 1u < itemsCount() && items(instance + 1u) <= block) ++instance;
+        AtlasInstance d = drawn(instance);
+        uint across = d.shape & 0xffffu, within = block - items(instance);
         uvec2 place = uvec2(d.corner & 0xffffu, d.corner >> 16) + uvec2(within % across, within / across);
         ivec2 pixel = ivec2(BLOCK * place + uvec2(inner % BLOCK, inner / BLOCK));
         if (any(greaterThanEqual(uvec2(pixel), frameSize()))) continue;

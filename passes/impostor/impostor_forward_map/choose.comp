@@ -87,5 +87,6 @@ void main() {
     left.at[instance] = isDrawn ? LEVELS : w.levels.at[instance];
     if (isDrawn != wasDrawn || !historyValid() || (instance == 0u && w.levelsChanged.at[0] != 0u)) atomicOr(changed.at[0], 1u);
     level = min(level + coarser, made.levels - 1u);
-    storeDrawn(instance, Drawn(level, views, bitCount(views) * tilesInView(made, level), 0u));
+    storeDrawn(instance, Drawn(level, views));
+    storeItems(instance, bitCount(views) * tilesInView(made, level));
 }

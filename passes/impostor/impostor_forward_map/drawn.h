@@ -10,8 +10,6 @@ LODESTIR_SHARED_BEGIN
 struct Drawn {
     uint level;
     uint views;   // a bit for each that is kept; 0: the instance is drawn otherwise, or not at all
-    uint count;   // tiles
-    uint first;   // tile: the sum of the counts before
 };
 
 // The nearest texel of a pixel: a number of 64 bits whose order is that of nearness.

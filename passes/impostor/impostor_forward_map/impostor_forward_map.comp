@@ -27,7 +27,7 @@ void main() {
         World w = world();
         Impostors made = impostors();
         DrawnTexel x;
-        texelOfNumber(w, made, key.low, x);
+        texelOfNumber(made, key.low, x);
         uint mesh = w.instances.at[x.instance].mesh;
         ImpostorTexel t = texelAt(made, mesh, x.level, x.view, x.texel);
         Splat s;

@@ -2,6 +2,7 @@
 // Impostors drawn by scattering: all texels of all views that may be seen, the nearest in each pixel.
 #include <framework/pass/pass.h>
 #include <passes/impostor/impostors.h>
+#include <passes/impostor/instance_items.h>
 #include <passes/impostor/surfel.h>
 
 #include "drawn.h"
@@ -20,9 +21,9 @@ struct ImpostorForwardMap final : Pass {
     Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
     State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
     Scratch<Buffer<Drawn>>    drawn{this, "drawn", "what of each instance is drawn", Count::reserved()};
-    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser; in the end those of the frame and those that show",
-                                     Count::fixed(16)};
-    Scratch<Buffer<uint>>     sums{this, "sums", "tiles of 64 instances each, then of all before them", Count::reserved()};
+    InstanceItems             numbered{this};
+    Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser, 64 bits each", Count::fixed(16)};
+    Scratch<Buffer<uint>>     tilesShown{this, "tilesShown", "how many tiles may be seen", Count::fixed(1)};
     Scratch<Buffer<uint>>     shown{this, "shown", "numbers of the tiles that may be seen", Count::reserved()};
     Scratch<Buffer<SplatKey>> keys{this, "keys", "nearest texel of each pixel", Count::perPixel()};
     Param<float>              pixelError{this, "pixelError", 0, {0, 1000},
@@ -52,30 +53,24 @@ struct ImpostorForwardMap final : Pass {
 
     void execute(Frame& frame) override {
         const std::uint32_t instances = frame.valueOf(world).instanceCount;
-        const std::uint32_t groups = (instances + 63) / 64;
         const Memory levelsLeft = frame.upload(std::vector<std::uint32_t>(instances + 1), "levels");  // and levelsChanged
         World left = frame.valueOf(world);
         left.levels = levelsLeft.address;
         left.levelsChanged = left.levels + instances * sizeof(std::uint32_t);
         frame.provide(rest, std::as_bytes(std::span(&left, 1)), levelsLeft.keep);
         frame.reserve(drawn, instances);
-        frame.reserve(sums, groups);
+        numbered.reserve(frame, instances);
         frame.reserve(shown, std::uint32_t(int(tiles)));
-        for (const Port* port : std::initializer_list<const Port*>{&totals, &texels}) frame.fill(*port, 0);
+        for (const Port* port : std::initializer_list<const Port*>{&totals, &tilesShown, &texels}) frame.fill(*port, 0);
         frame.fill(keys, NONE);
         frame.dispatch("choose.comp", {instances, 1});
         frame.dispatch("choose.comp", {instances, 1}, {1});  // the total is known: where it is too much, coarser
-        frame.dispatch("number.comp", {groups, 1}, {0});
-        frame.dispatch("number.comp", {1, 1}, {1});
-        frame.dispatch("number.comp", {groups, 1}, {2});
-        frame.dispatch("tiles.comp", {lanes, 1});
-        frame.dispatch("scatter.comp", {lanes, 1}, {0});
-        if (atomics == Atomics::pair) frame.dispatch("scatter.comp", {lanes, 1}, {1});
+        InstanceItems::number(frame, instances);
+        frame.dispatch("tiles.comp", {InstanceItems::lanes, 1});
+        frame.dispatch("scatter.comp", {InstanceItems::lanes, 1}, {0});
+        if (atomics == Atomics::pair) frame.dispatch("scatter.comp", {InstanceItems::lanes, 1}, {1});
         frame.dispatch(shader, frame.size());
     }
-
-private:
-    static constexpr std::uint32_t lanes = 1 << 15;  // they walk through all tiles; how many these are only the device knows
 };
 LODESTIR_PASS(ImpostorForwardMap, "impostor_forward_map.comp",
               "Draws impostors by scattering the texels of their views into the frame, the nearest in each pixel (RiLoD's forward mapping).")

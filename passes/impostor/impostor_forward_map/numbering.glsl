@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The texels of a frame by number: tile after tile, 64 numbers each. After pass.glsl.
+#include "impostor/instance_items.glsl"
 #include "impostor/views.glsl"
 
 const uint TILE_NUMBERS = 64u;
@@ -16,33 +17,22 @@ uint keptView(uint views, uint i) {
     return uint(findLSB(views));
 }
 
-/// The last instance whose first tile is not after this one: by bisection.
-uint instanceOfTile(uint instances, uint tile) {
-    uint low = 0u, high = instances - 1u;
-    while (low < high) {
-        uint middle = (low + high + 1u) / 2u;
-        if (drawn(middle).first <= tile) low = middle;
-        else high = middle - 1u;
-    }
-    return low;
-}
-
 /// A tile of the frame by number.
-DrawnTexel tileOfNumber(World w, Impostors made, uint tile) {
+DrawnTexel tileOfNumber(Impostors made, uint tile) {
     DrawnTexel found;
-    found.instance = instanceOfTile(w.instanceCount, tile);
+    found.instance = instanceOfItem(tile);
     Drawn d = drawn(found.instance);
-    uint across = tilesAcross(made, d.level), perView = tilesInView(made, d.level), inView = (tile - d.first) % perView;
+    uint first = items(found.instance), across = tilesAcross(made, d.level), perView = tilesInView(made, d.level), inView = (tile - first) % perView;
     found.level = d.level;
-    found.view = keptView(d.views, (tile - d.first) / perView);
+    found.view = keptView(d.views, (tile - first) / perView);
     found.texel = TILE * uvec2(inView % across, inView / across);
     return found;
 }
 
 /// False where the tile has fewer than 64 texels and `number` is of none.
-bool texelOfNumber(World w, Impostors made, uint number, out DrawnTexel found) {
+bool texelOfNumber(Impostors made, uint number, out DrawnTexel found) {
     uint inner = number % TILE_NUMBERS;
-    found = tileOfNumber(w, made, number / TILE_NUMBERS);
+    found = tileOfNumber(made, number / TILE_NUMBERS);
     found.texel += uvec2(inner % TILE, inner / TILE);
     return all(lessThan(found.texel, uvec2(levelResolution(made, found.level))));
 }

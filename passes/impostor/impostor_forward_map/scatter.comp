@@ -34,7 +34,7 @@ void offer(ivec2 pixel, uint number, uint near) {
 
 void draw(World w, Impostors made, uint number) {
     DrawnTexel x;
-    if (!texelOfNumber(w, made, number, x)) return;
+    if (!texelOfNumber(made, number, x)) return;
     ImpostorTexel t = shapeAt(made, w.instances.at[x.instance].mesh, x.level, x.view, x.texel);
     Splat s;
     if (!splatOf(w, made, x, t, s)) return;
@@ -54,6 +54,6 @@ void main() {
     if (skip()) return;
     World w = world();
     Impostors made = impostors();
-    uint count = totals(1u) * TILE_NUMBERS;
+    uint count = tilesShown(0u) * TILE_NUMBERS;
     for (uint i = uint(pixel().x); i < count; i += push.extent.x) draw(w, made, shown(i / TILE_NUMBERS) * TILE_NUMBERS + i % TILE_NUMBERS);
 }

@@ -51,6 +51,6 @@ void main() {
     if (skip()) return;
     World w = world();
     Impostors made = impostors();
-    for (uint tile = uint(pixel().x); tile < totals(0u); tile += push.extent.x)
-        if (mayShow(w, made, tileOfNumber(w, made, tile))) storeShown(addTotals(1u, 1u), tile);
+    for (uint tile = uint(pixel().x); tile < total(0u); tile += push.extent.x)
+        if (mayShow(w, made, tileOfNumber(made, tile))) storeShown(addTilesShown(0u, 1u), tile);
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The blocks of pixels by number, in turns (argument 0).
+// The items of all instances by number, in turns (argument 0).
 #version 460
 #include "pass.glsl"
-#include "impostor/atlas_instances.glsl"
+#include "impostor/instance_items.glsl"
 
 void main() {
     if (skip()) return;
-    numberBlocks(argument(0), uint(pixel().x));
+    numberItems(argument(0), uint(pixel().x));
 }
