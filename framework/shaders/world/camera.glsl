@@ -5,6 +5,8 @@
 #include "world/ray.h"
 #include "world/world.h"
 
+const vec2 LENS_CENTRE = vec2(0.0);  // what uniformDisk takes to the middle of the disk: not the middle of the square
+
 /// The point of the lens, relative to its centre. lens in [0,1]^2; uniform over the disk.
 vec3 lensOffset(World w, vec2 lens) {
     if (w.camera.aperture <= 0.0) return vec3(0.0);

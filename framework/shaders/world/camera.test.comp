@@ -56,4 +56,5 @@ void main() {
         sum += square(distance(origin, w.camera.position));
     }
     EXPECT_NEAR(sum / 4096.0, 0.03125, 0.0012);
+    EXPECT_EQ(cameraRay(w, vec2(0.3), LENS_CENTRE).origin, w.camera.position);
 }

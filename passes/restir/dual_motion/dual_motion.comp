@@ -33,7 +33,7 @@ vec2 dualMotion(ivec2 p, vec2 m) {
     ivec2 q = pixelBefore(p, m);
     if (!inside(q)) return -m;
     if (!wasHidden(p, q)) return m;
-    vec3 now = cameraProject(world(), positionAt(world(), pointOf(hitsPrev(pixelIndex(q)))), vec2(0.5));
+    vec3 now = cameraProject(world(), positionAt(world(), pointOf(hitsPrev(pixelIndex(q)))), LENS_CENTRE);
     return vec2(q) + 0.5 - now.xy * vec2(frameSize());
 }
 
