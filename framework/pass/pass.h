@@ -115,6 +115,11 @@ public:
     };
     std::vector<Bypass> bypasses;        ///< with "off": true each out is its in; a pass without any can't be off
     std::vector<Bypass> overwrites;      ///< outs that may lie in the memory of their ins
+    struct MacroOfPort {
+        std::string_view macro;
+        const Port* in;
+    };
+    std::vector<MacroOfPort> facts;      ///< macros that all shaders of a graph are compiled with as 1 where the input is wired
 
     Pass();
     Pass(const Pass&) = delete;
@@ -141,6 +146,12 @@ struct LODESTIR_API InPlace {
     template <Bundle B> InPlace(Pass* pass, const In<B>& in, const Out<B>& out) {
         for (std::size_t i = 0; i < in.members.size(); ++i) pass->overwrites.push_back({&in.members[i], &out.members[i]});
     }
+};
+
+/// Declares that where `in` is wired all shaders of the graph are compiled with a macro as 1: of what graphs can do that few of them do, and others
+/// shouldn't pay for.
+struct LODESTIR_API Fact {
+    Fact(Pass* pass, std::string_view macro, const Port& in) { pass->facts.push_back({macro, &in}); }
 };
 
 /// One pass of a plugin library, linked into the library's own list.

@@ -6,8 +6,8 @@
 #include <passes/basic/film.h>
 #include <passes/impostor/atlas_instance.h>
 #include <passes/impostor/atlases.h>
+#include <passes/impostor/baked_surface.h>
 #include <passes/impostor/instance_items.h>
-#include <passes/impostor/surfel.h>
 
 namespace lodestir {
 

@@ -7,7 +7,7 @@
 // which says what a ray sees of an instance; `towards`: from the object's centre to the camera, unit, object space.
 #include "basic/film.glsl"
 #include "impostor/atlas_instances.glsl"
-#include "impostor/surfel.h"
+#include "impostor/baked_surface.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer WideKeys { uint64_t at[]; };
 

@@ -51,6 +51,7 @@ void main() {
     EXPECT_EQ(r.alpha, 0.25);
     EXPECT_NEAR(r.normal, one.normal, 1e-6);
     EXPECT_EQ(r.depth, 0.3);
+    EXPECT_EQ(r.density, one.density);  // no more of the texture is shown
     // What is too faint to be seen still covers.
     ImpostorTexel faint = one;
     faint.alpha = 0.002;

@@ -14,10 +14,7 @@ struct PixelView {
 PixelView pixelView(World w, PrimaryHit h) {
     PixelView v = PixelView(true, vec3(0.0), 0.0);
     if (h.primitive == NONE) return v;
-    uvec3 corners = cornersOf(w, h.primitive);
-    Placement placement = placementOf(w, h.instance);
-    vec3 way = placePoint(placement, pointOn(w, corners, h.barycentrics).position) - w.camera.position;
-    vec3 n = safeNormalize(placeNormal(placement, smoothNormalOn(w, corners, h.barycentrics)), vec3(0.0, 1.0, 0.0));
+    vec3 way = positionAt(w, pointOf(h)) - w.camera.position, n = smoothNormalAt(w, pointOf(h));
     vec3 view = w.camera.orthographic != 0u ? w.camera.forward : way;
     return PixelView(false, dot(n, view) > 0.0 ? -n : n, dot(way, w.camera.forward));
 }

@@ -15,7 +15,7 @@ namespace lodestir {
 namespace {
 
 /// Rooms of shaderFolder(), each of which may include itself and those before it. Families come after all of them.
-const std::vector<std::string> rooms{"base", "world", "texture", "surface", "bsdf", "light", "trace", "view"};
+const std::vector<std::string> rooms{"base", "world", "texture", "impostor", "surface", "bsdf", "light", "trace", "view"};
 
 /// Modules by name ("world/camera.glsl"), and what each includes. Tests and kernels may include anything.
 std::map<std::string, std::vector<std::string>> modulesIn(const Path& root) {

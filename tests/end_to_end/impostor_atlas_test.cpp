@@ -6,7 +6,7 @@
 #include "program.h"
 
 #include <framework/shaders/world/primary_hit.h>
-#include <passes/impostor/surfel.h>
+#include <passes/impostor/baked_surface.h>
 
 #include <glm/gtc/packing.hpp>
 #include <glm/gtc/quaternion.hpp>

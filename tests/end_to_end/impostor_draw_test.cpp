@@ -4,7 +4,7 @@
 #include "frames.h"
 #include "program.h"
 
-#include <passes/impostor/surfel.h>
+#include <framework/shaders/impostor/surfel.h>
 
 #include <algorithm>
 #include <cstring>

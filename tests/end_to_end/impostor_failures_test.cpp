@@ -6,7 +6,7 @@
 #include <framework/image/metrics.h>
 
 #include <framework/shaders/world/primary_hit.h>
-#include <passes/impostor/surfel.h>
+#include <framework/shaders/impostor/surfel.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // From a material and its textures to the lobes at a point.
 #include "bsdf/bsdf.glsl"
+#include "bsdf/normal_spread.glsl"
 #include "texture/material_map.glsl"
 #include "world/scene_facts.glsl"
 #include "surface/surface.glsl"
@@ -60,10 +61,10 @@ void applyLayers(inout Bsdf b, Surface s, LayerValues v) {
 /// Reads the material at s. Back faces scatter like front faces; on a solid's back face the viewer is inside.
 Bsdf bsdfAt(World w, Surface s) {
     uint m = s.material, flags = w.materials.at[m].flags;
-    bool isTexel = TEXEL_SURFACES != 0 && s.primitive == NONE;
-    uvec3 corners = isTexel ? uvec3(0u) : cornersOf(w, s.primitive);
+    bool ofTexel = isTexel(s.primitive);
+    uvec3 corners = ofTexel ? uvec3(0u) : cornersOf(w, s.primitive);
     vec4 base = w.materials.at[m].baseColor;
-    if (!isTexel) base *= vertexColorOn(w, m, corners, s.barycentrics);
+    if (!ofTexel) base *= vertexColorOn(w, m, corners, s.barycentrics);
     float roughness = w.materials.at[m].roughness, metallic = w.materials.at[m].metallic, transmission = w.materials.at[m].transmission;
     uint layers = SCENE_LAYERS != 0 ? w.materials.at[m].layers : NONE;
     LayerValues values;
@@ -81,8 +82,8 @@ Bsdf bsdfAt(World w, Surface s) {
         else if (map == 0u) slot = w.materials.at[m].baseColorMap;
         else if (map == 1u) slot = w.materials.at[m].metallicRoughnessMap;
         else slot = w.materials.at[m].transmissionMap;
-        vec2 uv = slot.uvSet != 0u && !isTexel ? uvOn(w, corners, s.barycentrics, slot.uvSet) : s.uv;
-        vec4 value = readMap(w, slot, uv, isTexel ? mapLevel(w, slot, s.density) : 0.0);
+        vec2 uv = slot.uvSet != 0u && !ofTexel ? uvOn(w, corners, s.barycentrics, slot.uvSet) : s.uv;
+        vec4 value = readMap(w, slot, uv, ofTexel ? mapLevel(w, slot, s.density) : 0.0);
         if (map >= 3u) {
             applyLayerMap(values, map - 3u, value, w.layers.at[layers].coatNormalScale);
         } else if (map == 0u) {
@@ -105,6 +106,11 @@ Bsdf bsdfAt(World w, Surface s) {
     // Unlit models are made for viewers that leave out back faces: one looks into their rooms through the walls.
     if ((flags & (MATERIAL_UNLIT | MATERIAL_DOUBLE_SIDED)) == MATERIAL_UNLIT && !s.frontFace) b.coverage = 0.0;
     if (layers != NONE) applyLayers(b, s, values);
+    if (ofTexel && s.normalLength < 1.0) {
+        b.alpha = spreadWidth(b.alpha, s.normalLength);
+        b.along = spreadWidth(b.along, s.normalLength);
+        b.coatAlpha = spreadWidth(b.coatAlpha, s.normalLength);
+    }
     return b;
 }
 

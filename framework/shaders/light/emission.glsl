@@ -25,8 +25,16 @@ bool emitsTo(World w, uint material, bool frontFace) {
     return (flags & MATERIAL_EMISSIVE) != 0u && (frontFace || (flags & MATERIAL_DOUBLE_SIDED) != 0u);
 }
 
+/// The same of a texel of an impostor, whose coverage is its own.
+vec3 emissionOfTexel(World w, Surface s) {
+    vec3 emission = w.materials.at[s.material].emission;
+    if (w.materials.at[s.material].emissiveMap.texture == NONE) return emission;
+    return emission * readMap(w, w.materials.at[s.material].emissiveMap, s.uv, mapLevel(w, w.materials.at[s.material].emissiveMap, s.density)).rgb;
+}
+
 /// Radiance that s itself sends to the viewer.
 vec3 emittedRadiance(World w, Surface s) {
     if (!emitsTo(w, s.material, s.frontFace)) return vec3(0.0);
+    if (isTexel(s.primitive)) return emissionOfTexel(w, s);
     return emissionOn(w, s.material, cornersOf(w, s.primitive), s.barycentrics);
 }

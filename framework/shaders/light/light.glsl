@@ -118,6 +118,7 @@ LightSample sampleLight(World w, vec3 position, uvec3 choice, vec3 u) { return l
 /// Density with which light sampling finds the point that a ray of unit direction hit after `distance`, per steradian, the light's choice
 /// included; 0 where the triangle is no light.
 float lightPdf(World w, uint instance, uint primitive, vec3 direction, float distance) {
+    if (isTexel(primitive)) return 0.0;  // rays don't meet them
     uint emitter = w.emitters.at[primitive], first = w.instances.at[instance].firstLight;
     if (emitter == NONE || first == NONE) return 0.0;
     TrianglePoint point = pointOn(w, cornersOf(w, primitive), vec2(0.0));

@@ -3,34 +3,12 @@
 #include "base/math.glsl"
 #include "base/pack.glsl"
 #include "surface/surface_point.glsl"
+#include "surface/surface_struct.glsl"
 #include "texture/material_map.glsl"
 #include "world/scene_facts.glsl"
-
-struct Surface {
-    vec3 position;       // interpolated from the corners: origin + t * direction would carry the error of t off the triangle
-    vec3 normal;         // of the triangle, unit, towards the viewer
-    float twiceArea;     // of the triangle, world space
-    float rounding;      // of the position, and of where rays meet the triangle, along its normal (surface/rounding.glsl)
-    vec3 shadingNormal;  // unit, towards the viewer; its mirror direction lies above the triangle
-    vec2 uv;             // set 0
-    vec2 barycentrics;
-    uint primitive, instance, material;  // primitive NONE: a texel of an impostor, which has texture coordinates of set 0 alone
-    bool frontFace;      // the viewer sees the triangle's front
-    vec3 view;           // unit, towards the viewer
-    mat3 frame;          // tangent, bitangent, normal without normal map, of the front side; tangents only where the material uses them
-    float density;       // of a texel: log2 of texture coordinates per side of it, which textures are read for; else DENSITY_NONE
-};
-
-/// Bends the shading normal n just so far that the mirror direction of `view` is not below the surface with normal ng
-/// (Keller et al. 2017, The Iray Light Transport Simulation and Rendering System, appendix A.3: the mirror direction is
-/// raised along n to the horizon, and the normal set halfway between it and the view). All unit; dot(ng, view) >= 0.
-vec3 bendNormal(vec3 n, vec3 ng, vec3 view) {
-    vec3 mirrored = 2.0 * dot(n, view) * n - view;
-    float below = dot(ng, mirrored);
-    if (below >= 0.0) return n;
-    vec3 raised = mirrored - n * (below / max(0.001, dot(n, ng)));
-    return safeNormalize(view + safeNormalize(raised, ng), ng);
-}
+#if TEXEL_SURFACES
+#include "surface/texel_surface.glsl"
+#endif
 
 /// Tangent, bitangent and n as columns, n being the smooth normal in world space. Zeros for n's companions where the
 /// mesh has no tangents: maps then leave the normal as it is.
@@ -56,6 +34,9 @@ Hit hitOf(PrimaryHit h) { return Hit(0.0, h.barycentrics, h.primitive, h.instanc
 
 /// `w` is the World the ray was traced in; rayDirection may have any length. All passes that are given the hit find the same position.
 Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
+#if TEXEL_SURFACES
+    if (isTexel(hit.primitive)) return texelSurfaceAt(w, hit, rayDirection);
+#endif
     uvec3 corners = cornersOf(w, hit.primitive);
     Placement placement = placementOf(w, hit.instance);
     TrianglePoint point = pointOn(w, corners, hit.barycentrics);
@@ -82,6 +63,7 @@ Surface surfaceAt(World w, Hit hit, vec3 rayDirection) {
     n = dot(n, front) < 0.0 ? -n : n;
     s.frame = mat3(vec3(0.0), vec3(0.0), n);
     s.density = DENSITY_NONE;
+    s.normalLength = 1.0;
     bool mapped = w.materials.at[s.material].normalMap.texture != NONE;
     if (mapped || (SCENE_LAYERS != 0 && w.materials.at[s.material].layers != NONE)) s.frame = tangentFrame(w, placement, mirror, corners, hit.barycentrics, n);
     if (mapped) n = mapNormal(w, s, corners, s.frame);

@@ -18,11 +18,12 @@ vec4 readMap(World w, TextureSlotRecord slot, vec2 uv, uvec3 corners, vec2 baryc
 
 const float DENSITY_NONE = -1e30;  // no texture coordinates, or all the same
 
-/// Level of the slot's texture whose texels are as wide as what is seen. density: log2 of texture coordinates per side of that.
+/// Level of the slot's texture that what is seen is read at: texels half as wide, because reading spreads over two a side.
+/// density: log2 of texture coordinates per side of that.
 float mapLevel(World w, TextureSlotRecord slot, float density) {
     float texels = float(w.textures.at[slot.texture].width) * float(w.textures.at[slot.texture].height);
     float turned = abs(slot.row0.x * slot.row1.y - slot.row0.y * slot.row1.x);
-    return max(0.0, density + 0.5 * log2(max(texels * turned, 1e-30)));
+    return max(0.0, density - 1.0 + 0.5 * log2(max(texels * turned, 1e-30)));
 }
 
 /// Vertex colour, white where the material's meshes have none.

@@ -4,7 +4,7 @@
 #define SCENE_LAYERS 1  // MaterialRecord.layers
 #endif
 #ifndef TEXEL_SURFACES
-#define TEXEL_SURFACES 0  // surfaces without a triangle (Surface.primitive NONE), of shaders that define it as 1 before they include anything
+#define TEXEL_SURFACES 0  // surfaces may be texels of impostors: graphs in which camera hits are (visibility.surfels), and shaders that define it
 #endif
 #ifndef SCENE_MASKS
 #define SCENE_MASKS 1   // MATERIAL_MASK

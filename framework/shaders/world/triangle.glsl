@@ -59,3 +59,6 @@ vec3 placeNormal(Placement p, vec3 n) {
 
 /// How much the transform enlarges volumes; negative where it mirrors.
 float placementDeterminant(Placement p) { return dot(p.row0, cross(p.row1, p.row2)); }
+
+/// How much it enlarges lengths, in the mean.
+float placementScale(Placement p) { return pow(abs(placementDeterminant(p)), 1.0 / 3.0); }

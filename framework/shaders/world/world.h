@@ -7,7 +7,8 @@
 
 LODESTIR_SHARED_BEGIN
 
-const uint NONE = 0xffffffffu;  // no such index
+const uint NONE = 0xffffffffu;   // no such index
+const uint TEXEL = 0x80000000u;  // numbers of primitives from here on: TEXEL + texel's place in the arrays of its mesh's ImpostorRecord (impostor/impostors.h)
 const uint LEVELS = 8u;         // most levels of a mesh: stride of World.roots
 
 // Attributes of a vertex that traversal does not need.
@@ -230,6 +231,8 @@ struct World {
     uint lightCount;
     float sceneRadius;                               // of the sphere around all instances
     vec3 sceneCenter;
+
+    uint64_t impostors;                              // Impostors (impostor/impostors.h) that camera hits may be texels of; 0: none
 
     CameraRecord camera;
 };

@@ -14,6 +14,7 @@
 
 struct Path {
     uvec2 seed;
+    uint pixel;         // its number
     uint scatterings;   // so far
     vec3 radiance;      // sum over the samples so far
     vec3 throughput;
@@ -24,6 +25,15 @@ struct Path {
     Ray onward;         // the path's own next ray, while `ray` goes to a light
     bool ends;          // there is none
 };
+
+#if HAS_hits
+/// What the pixel's ray is known to hit.
+Hit firstHit(Path p, World w) {
+    Hit hit = hitOf(hits(p.pixel));
+    if (hit.primitive != NONE) hit.t = distance(p.ray.origin, positionAt(w, pointOf(hit)));
+    return hit;
+}
+#endif
 
 uint technique() { return uint(params.technique); }
 
@@ -36,6 +46,7 @@ void pathStart(inout Path p, World now, ivec2 pixel) { p.radiance = vec3(0); }
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uint sampleIndex = frameIndex() * uint(params.spp) + item;
     p.seed = pathSeed(uvec2(pixel), sampleIndex, runSeed());
+    p.pixel = pixelIndex(pixel);
     p.scatterings = 0;
     p.throughput = vec3(1);
     p.pdf = 0;
@@ -43,7 +54,13 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.direct = vec3(0);
     p.ends = false;
     vec2 offset = filmPlace(p.seed);
-    p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), lensPlace(p.seed));
+    vec2 lens = lensPlace(p.seed);
+#if HAS_hits
+    PrimaryHit first = hits(pixelIndex(pixel));
+    offset = first.film;
+    lens = first.lens;
+#endif
+    p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), lens);
     p.onward = p.ray;
     PROBE_OPEN(paths);
     PROBE(seed, p.seed);
@@ -128,10 +145,21 @@ bool scatter(inout Path p, World w, Hit hit) {
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
     anyHit = p.toLight;
     purpose = p.toLight ? RAYS_NEE : p.scatterings == 0 ? RAYS_PRIMARY : RAYS_CONTINUE;
+#if HAS_hits
+    if (!p.toLight && p.scatterings == 0) {
+        purpose = RAYS_PURPOSES;
+        Ray none = p.ray;
+        none.tMax = -1;
+        return none;
+    }
+#endif
     return p.ray;
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
+#if HAS_hits
+    if (!p.toLight && p.scatterings == 0) hit = firstHit(p, w);
+#endif
     if (!p.toLight) return scatter(p, w, hit);
     PROBE(arrives, transmittance(hit));
     p.radiance += p.direct * transmittance(hit);

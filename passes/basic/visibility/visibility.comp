@@ -5,6 +5,7 @@
 #include "base/random.glsl"
 #include "basic/film.glsl"
 #include "bsdf/material.glsl"
+#include "surface/surfel_point.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
 
@@ -17,7 +18,22 @@ struct Path {
 
 uint pathItems(World now) { return 1; }
 
+#if HAS_surfels
+World pathWorld(World now, uint item) { return rest(); }
+
+/// What the pixel shows of impostors, where that is nearer.
+void meetSurfel(inout Path p, World w, ivec2 pixel) {
+    Surfel f = surfels(pixelIndex(pixel));
+    float forward = dot(p.ray.direction, w.camera.forward);
+    if (f.instance == NONE || (p.hit.primitive != NONE && p.hit.t * forward < f.depth)) return;
+    SurfacePoint found = surfelPoint(w, f, p.ray.origin + f.depth / forward * p.ray.direction);
+    p.hit = Hit(f.depth / forward, found.barycentrics, found.primitive, found.instance);
+}
+#else
 World pathWorld(World now, uint item) { return now; }
+
+void meetSurfel(inout Path p, World w, ivec2 pixel) {}
+#endif
 
 void pathStart(inout Path p, World now, ivec2 pixel) {}
 
@@ -60,7 +76,9 @@ vec2 motionOf(Path p, World w) {
 #endif
 }
 
-void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {
+void pathItemEnd(inout Path p, World traced, ivec2 pixel, uint item) {
+    World w = world();
+    meetSurfel(p, w, pixel);
     PrimaryHit found;
     found.instance = p.hit.instance;
     found.primitive = p.hit.primitive;

@@ -9,7 +9,7 @@ vec3 radianceBehind(ivec2 p) {
     return behind(p).rgb;
 #else
     World w = world();
-    return environmentRadiance(w, cameraRay(w, filmOf(p, vec2(0.5), frameSize()), vec2(0.5)).direction);
+    return environmentRadiance(w, cameraRay(w, filmOf(p, vec2(0.5), frameSize()), LENS_CENTRE).direction);
 #endif
 }
 

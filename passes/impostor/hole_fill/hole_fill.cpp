@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pixels that no texel landed in though the surface goes on there, and those through which one sees what lies behind it.
 #include <framework/pass/pass.h>
-#include <passes/impostor/surfel.h>
+#include <framework/shaders/impostor/surfel.h>
 
 using namespace lodestir;
 

@@ -14,7 +14,7 @@ struct Neighbour {
     float width;  // of a pixel at its depth
 };
 
-Ray pixelRay(World w, ivec2 p) { return cameraRay(w, filmOf(p, vec2(0.5), frameSize()), vec2(0.5)); }
+Ray pixelRay(World w, ivec2 p) { return cameraRay(w, filmOf(p, vec2(0.5), frameSize()), LENS_CENTRE); }
 
 const Surfel NOTHING = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
 

@@ -3,7 +3,7 @@
 #pragma once
 #include <framework/pass/scene.h>
 
-#include <passes/impostor/impostors.h>
+#include <framework/shaders/impostor/impostors.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How the texels of a mesh lie in one piece of memory.
 #pragma once
-#include <passes/impostor/impostors.h>
+#include <framework/shaders/impostor/impostors.h>
 
 #include <algorithm>
 #include <cstdint>

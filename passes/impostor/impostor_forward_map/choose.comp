@@ -4,7 +4,7 @@
 #version 460
 #include "pass.glsl"
 #include "base/math.glsl"
-#include "impostor/texel_surface.glsl"
+#include "impostor/texel_plane.glsl"
 #include "numbering.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Totals { uint64_t at[]; };
@@ -53,6 +53,16 @@ uint keptViews(Impostors made, Placement placement, vec3 towards) {
     return views;
 }
 
+/// What others show of an instance: camera rays nothing of what is drawn here, all other rays a coarse level of its mesh.
+void showElsewhere(World w, uint instance, bool isDrawn, bool changes) {
+    uint shown = w.levels.at[instance], most = w.meshes.at[w.instances.at[instance].mesh].levels - 1u;
+    Words(uint64_t(rest().levels)).at[instance] = isDrawn ? LEVELS : shown;
+    Words(uint64_t(madeWorld().levels)).at[instance] = isDrawn && shown < LEVELS ? clamp(shown + uint(params.coarser), shown, max(most, shown)) : shown;
+    if (!changes) return;
+    atomicOr(Words(uint64_t(rest().levelsChanged)).at[0], 1u);
+    atomicOr(Words(uint64_t(madeWorld().levelsChanged)).at[0], 1u);
+}
+
 void main() {
     if (skip()) return;
     uint instance = uint(pixel().x);
@@ -83,9 +93,7 @@ void main() {
     uint coarser = 0u;
     while (coarser < 7u && sums.at[coarser] > uint64_t(params.tiles)) ++coarser;
     if (isKnown) storeLevels(instance, isDrawn ? level + 1u : 0u);
-    Words left = Words(uint64_t(rest().levels)), changed = Words(uint64_t(rest().levelsChanged));
-    left.at[instance] = isDrawn ? LEVELS : w.levels.at[instance];
-    if (isDrawn != wasDrawn || !historyValid() || (instance == 0u && w.levelsChanged.at[0] != 0u)) atomicOr(changed.at[0], 1u);
+    showElsewhere(w, instance, isDrawn, isDrawn != wasDrawn || !historyValid() || (instance == 0u && w.levelsChanged.at[0] != 0u));
     level = min(level + coarser, made.levels - 1u);
     storeDrawn(instance, Drawn(level, views));
     storeItems(instance, bitCount(views) * tilesInView(made, level));

@@ -29,18 +29,19 @@ void main() {
         DrawnTexel x;
         texelOfNumber(made, key.low, x);
         uint mesh = w.instances.at[x.instance].mesh;
-        ImpostorTexel t = texelAt(made, mesh, x.level, x.view, x.texel);
+        ImpostorTexel t = texelAt(made, mesh, x.place.level, x.place.view, x.place.texel);
         Splat s;
         splatOf(w, made, x, t, s);
         f.instance = x.instance;
         f.depth = depthIn(s, p);
         f.normal = packNormal(s.normal);
+        if (s.turned) t.flags ^= TEXEL_BACK;
         f.measures = packShape(t).z;
         f.uv = packUv(t.uv);
         f.materials = t.material;
         f.alpha = params.blend ? t.alpha : 1.0;
-        f.texel = texelIndex(made, x.level, x.view, x.texel);
-        if (x.level > 0u) nameMaterials(f, made.objects.at[mesh], t);
+        f.texel = texelIndex(made, x.place.level, x.place.view, x.place.texel);
+        if (x.place.level > 0u) nameMaterials(f, made.objects.at[mesh], t);
     }
     storeSurfels(pixelIndex(p), f);
 }

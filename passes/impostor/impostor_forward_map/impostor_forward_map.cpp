@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Impostors drawn by scattering: all texels of all views that may be seen, the nearest in each pixel.
 #include <framework/pass/pass.h>
-#include <passes/impostor/impostors.h>
+#include <framework/shaders/impostor/impostors.h>
+#include <framework/shaders/impostor/surfel.h>
 #include <passes/impostor/instance_items.h>
-#include <passes/impostor/surfel.h>
 
 #include "drawn.h"
 
@@ -16,7 +16,9 @@ enum class Atomics { wide, pair };
 struct ImpostorForwardMap final : Pass {
     In<World>                 world{this, "world", "the scene: camera, and where its instances stand"};
     In<Impostors>             impostors{this, "impostors", "of the meshes: instances of those that were baked are drawn"};
-    Out<World>                rest{this, "rest", "the scene without the instances that are drawn as impostors"};
+    Out<World>                worldOut{this, "world", "the scene for all rays but the camera's: instances that are drawn as impostors show a coarse level "
+                                                      "of their mesh, and camera hits may be texels"};
+    Out<World>                rest{this, "rest", "the scene for camera rays: without the instances that are drawn as impostors"};
     Out<Buffer<Surfel>>       surfels{this, "surfels", "what each pixel shows of them", Count::perPixel()};
     Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
     State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
@@ -43,21 +45,21 @@ struct ImpostorForwardMap final : Pass {
     Param<int>                footprint{this, "footprint", 3, {1, 5}, "most pixels a side that a texel is spread over"};
     Param<bool>               backFaces{this, "backFaces", true, "texels that face away are left out before they can hide others; off: they stay"};
     Param<float>              cutoff{this, "cutoff", 0.5f, {0.01f, 1},
-                                     "least share of a texel that the object has to cover for it to be drawn, if it isn't blended"};
+                                     "where the object is thinner than texels and nothing is blended: least share of a texel that it has to cover to be drawn; "
+                                     "elsewhere texels are drawn in part"};
     Param<bool>               blend{this, "blend", false, "pixels keep the share of their texel that the object covers; off: all of it, or nothing"};
     Param<PixelPlace>         film{this, "film", PixelPlace::centre, {"centre", "frame"},
                                    "which place of a pixel decides what it shows: its centre, or one place for all pixels of a frame (film of visibility)"};
     Param<Atomics>            atomics{this, "atomics", Atomics::wide, {"wide", "pair"},
                                       "how the nearest is found: by atomics of 64 bits, or by two of 32, the second among the nearest of the first"};
+    Param<int>                coarser{this, "coarser", 1, {0, int(LEVELS) - 1},
+                                      "levels by which what other rays meet of an instance that is drawn is coarser than what the World that comes in shows"};
     Param<int>                tiles{this, "tiles", 1 << 20, {64, 1 << 26}, "of 8x8 texels, most a frame: where there would be more, all levels are coarser"};
 
     void execute(Frame& frame) override {
         const std::uint32_t instances = frame.valueOf(world).instanceCount;
-        const Memory levelsLeft = frame.upload(std::vector<std::uint32_t>(instances + 1), "levels");  // and levelsChanged
-        World left = frame.valueOf(world);
-        left.levels = levelsLeft.address;
-        left.levelsChanged = left.levels + instances * sizeof(std::uint32_t);
-        frame.provide(rest, std::as_bytes(std::span(&left, 1)), levelsLeft.keep);
+        provideWorld(frame, rest);
+        provideWorld(frame, worldOut);
         frame.reserve(drawn, instances);
         numbered.reserve(frame, instances);
         frame.reserve(shown, std::uint32_t(int(tiles)));
@@ -70,6 +72,18 @@ struct ImpostorForwardMap final : Pass {
         frame.dispatch("scatter.comp", {InstanceItems::lanes, 1}, {0});
         if (atomics == Atomics::pair) frame.dispatch("scatter.comp", {InstanceItems::lanes, 1}, {1});
         frame.dispatch(shader, frame.size());
+    }
+
+private:
+    /// With levels of its own for choose.comp to set.
+    void provideWorld(Frame& frame, const Port& port) const {
+        World made = frame.valueOf(world);
+        const Memory levelsShown = frame.upload(std::vector<std::uint32_t>(made.instanceCount + 1), "levels");  // and levelsChanged
+        const Memory shownAs = frame.upload(std::vector{frame.valueOf(impostors)}, "impostors");
+        made.levels = levelsShown.address;
+        made.levelsChanged = made.levels + made.instanceCount * sizeof(std::uint32_t);
+        made.impostors = shownAs.address;
+        frame.provide(port, std::as_bytes(std::span(&made, 1)), std::make_shared<std::pair<Memory, Memory>>(levelsShown, shownAs));
     }
 };
 LODESTIR_PASS(ImpostorForwardMap, "impostor_forward_map.comp",

@@ -7,8 +7,8 @@ const uint TILE_NUMBERS = 64u;
 
 /// A texel of the frame; of a tile its first.
 struct DrawnTexel {
-    uint instance, level, view;
-    uvec2 texel;
+    uint instance;
+    TexelPlace place;
 };
 
 /// The i-th view that is kept.
@@ -23,9 +23,7 @@ DrawnTexel tileOfNumber(Impostors made, uint tile) {
     found.instance = instanceOfItem(tile);
     Drawn d = drawn(found.instance);
     uint first = items(found.instance), across = tilesAcross(made, d.level), perView = tilesInView(made, d.level), inView = (tile - first) % perView;
-    found.level = d.level;
-    found.view = keptView(d.views, (tile - first) / perView);
-    found.texel = TILE * uvec2(inView % across, inView / across);
+    found.place = TexelPlace(d.level, keptView(d.views, (tile - first) / perView), TILE * uvec2(inView % across, inView / across));
     return found;
 }
 
@@ -33,6 +31,6 @@ DrawnTexel tileOfNumber(Impostors made, uint tile) {
 bool texelOfNumber(Impostors made, uint number, out DrawnTexel found) {
     uint inner = number % TILE_NUMBERS;
     found = tileOfNumber(made, number / TILE_NUMBERS);
-    found.texel += uvec2(inner % TILE, inner / TILE);
-    return all(lessThan(found.texel, uvec2(levelResolution(made, found.level))));
+    found.place.texel += uvec2(inner % TILE, inner / TILE);
+    return all(lessThan(found.place.texel, uvec2(levelResolution(made, found.place.level))));
 }

@@ -2,6 +2,7 @@
 // Texels into pixels; the least key stays. With pairs of atomics the upper words come first (argument 0), then the lower ones of those that have the least.
 #version 460
 #include "pass.glsl"
+#include "outline.glsl"
 #include "splat.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer WideKeys { uint64_t at[]; };
@@ -35,9 +36,11 @@ void offer(ivec2 pixel, uint number, uint near) {
 void draw(World w, Impostors made, uint number) {
     DrawnTexel x;
     if (!texelOfNumber(made, number, x)) return;
-    ImpostorTexel t = shapeAt(made, w.instances.at[x.instance].mesh, x.level, x.view, x.texel);
+    ImpostorTexel t = shapeAt(made, w.instances.at[x.instance].mesh, x.place.level, x.place.view, x.place.texel);
     Splat s;
     if (!splatOf(w, made, x, t, s)) return;
+    vec3 part = WHOLE;
+    if (!params.blend) part = coveredPart(made, w.instances.at[x.instance].mesh, x.place, t.alpha, params.cutoff);
     if (argument(0) == 0u && addTexels(0u, 1u) == 0xffffffffu) addTexels(1u, 1u);
     ivec2 middle = centerPixel(s), reach = min(ivec2(params.footprint / 2), ivec2(ceil(OVERLAP * (abs(s.a) + abs(s.b)))));
     for (int y = -reach.y; y <= reach.y; ++y) {
@@ -45,7 +48,7 @@ void draw(World w, Impostors made, uint number) {
             ivec2 pixel = middle + ivec2(x, y);
             bool isCenter = x == 0 && y == 0;
             if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frameSize())))) continue;
-            if (covers(s, pixel)) offer(pixel, number, nearness(s, t, pixel, isCenter));
+            if (covers(s, pixel, part)) offer(pixel, number, nearness(s, t, pixel, isCenter));
         }
     }
 }

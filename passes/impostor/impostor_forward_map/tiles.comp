@@ -23,7 +23,7 @@ bool mayFace(World w, TileRecord tile, Placement placement, vec3 axis, vec3 cent
 
 /// Does a sphere reach the film?
 bool mayLand(World w, vec3 center, float radius) {
-    vec3 seen = cameraProject(w, center, vec2(0.5));
+    vec3 seen = cameraProject(w, center, LENS_CENTRE);
     if (seen.z < -radius) return false;
     if (seen.z < 2.0 * radius) return true;
     vec2 reach = vec2(radius) / vec2(length(w.camera.right), length(w.camera.up)) * 0.5;
@@ -35,12 +35,12 @@ bool mayLand(World w, vec3 center, float radius) {
 bool mayShow(World w, Impostors made, DrawnTexel x) {
     uint mesh = w.instances.at[x.instance].mesh;
     ImpostorRecord object = made.objects.at[mesh];
-    TileRecord tile = TileArray(object.tiles).at[tileIndex(made, x.level, x.view, x.texel / TILE)];
+    TileRecord tile = TileArray(object.tiles).at[tileIndex(made, x.place.level, x.place.view, x.place.texel / TILE)];
     if (tile.nearest > tile.farthest) return false;
-    ImpostorView v = impostorView(made.views, x.view);
+    ImpostorView v = impostorView(made.views, x.place.view);
     Placement placement = placementOf(w, x.instance);
-    float n = float(levelResolution(made, x.level)), side = min(float(TILE), n) / n;
-    vec3 middle = windowPoint(made, object.center, object.radius, v, vec2(x.texel) / n + 0.5 * side, 0.5 * (tile.nearest + tile.farthest));
+    float n = float(levelResolution(made, x.place.level)), side = min(float(TILE), n) / n;
+    vec3 middle = windowPoint(made, object.center, object.radius, v, vec2(x.place.texel) / n + 0.5 * side, 0.5 * (tile.nearest + tile.farthest));
     vec3 extent = object.radius * vec3(side * windowMargin(made), side * windowMargin(made), tile.farthest - tile.nearest);
     vec3 reach = abs(extent.x * placeVector(placement, v.x)) + abs(extent.y * placeVector(placement, v.y)) + abs(extent.z * placeVector(placement, v.d));
     vec3 center = placePoint(placement, middle);

@@ -3,7 +3,7 @@
 #include <framework/pass/pass.h>
 #include <framework/pass/scene.h>
 
-#include <passes/impostor/impostors.h>
+#include <framework/shaders/impostor/impostors.h>
 
 #include "shown_texel.h"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Direct light on what pixels show, without noise: the same for impostors, for the atlases they are compared with, and for the geometry they stand for.
 #include <framework/pass/pass.h>
+#include <framework/shaders/impostor/impostors.h>
+#include <framework/shaders/impostor/surfel.h>
 #include <framework/shaders/world/primary_hit.h>
-#include <passes/impostor/impostors.h>
-#include <passes/impostor/surfel.h>
+#include <passes/impostor/baked_surface.h>
 
 using namespace lodestir;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What a pixel shows, whichever of the inputs says so: a surface, the materials that it is of and their shares.
 #include "bsdf/material.glsl"
-#include "impostor/texel_surface.glsl"
 #include "impostor/reduce.glsl"
 #include "light/emission.glsl"
+#include "surface/texel_surface.glsl"
 #include "world/camera.glsl"
 
 /// A material's BSDF at the pixel, and the chances of its lobes.
@@ -15,7 +15,7 @@ struct Lobes {
 /// Where a pixel's centre sees a depth. The place inside the pixel that a surface was found at may be another; what that would change is below what its
 /// normal is known to.
 vec3 seenPosition(World w, ivec2 pixel, float depth, out vec3 view) {
-    Ray ray = cameraRay(w, filmOf(pixel, vec2(0.5), frameSize()), vec2(0.5));
+    Ray ray = cameraRay(w, filmOf(pixel, vec2(0.5), frameSize()), LENS_CENTRE);
     view = -ray.direction;
     return ray.origin + depth / dot(ray.direction, w.camera.forward) * ray.direction;
 }
@@ -27,7 +27,6 @@ struct Shaded {
     uint materials;   // how many; 0: nothing is shown
     uint counts;      // of the palette; 0: one material, the surface's
     uint mesh;
-    float size;       // of the mean normal
 };
 
 Shaded shadedAt(World w, ivec2 pixel) {
@@ -41,7 +40,6 @@ Shaded shadedAt(World w, ivec2 pixel) {
     shown.depth = f.depth;
     shown.alpha = f.alpha;
     shown.mesh = w.instances.at[f.instance].mesh;
-    shown.size = float(f.measures & 0xffffu) / 65535.0;
     uint flags = f.measures >> 24, level = levelOfTexel(impostors(), f.texel);
     shown.counts = (flags & SURFEL_COUNTS) != 0u ? f.materials : 0u;
     shown.materials = 1u;
@@ -51,9 +49,13 @@ Shaded shadedAt(World w, ivec2 pixel) {
         for (uint i = 0u; i < PALETTE; ++i) shown.materials += countOf(shown.counts, i) != 0u ? 1u : 0u;
         material = impostors().objects.at[shown.mesh].palette[commonestPlace(shown.counts)];
     }
-    float side = texelSide(impostors(), impostors().objects.at[shown.mesh].radius, level) * placementScale(placementOf(w, f.instance));
-    shown.surface = texelSurface(f.instance, material, position, unpackNormal(f.normal), view, unpackUv(f.uv), unpackDensity((f.measures >> 16) & 0xffu), side,
-                                 (flags & TEXEL_BACK) == 0u);
+    Placement placement = placementOf(w, f.instance);
+    float side = texelSide(impostors(), impostors().objects.at[shown.mesh].radius, level) * placementScale(placement);
+    vec3 normal = unpackNormal(f.normal);
+    float density = unpackDensity((f.measures >> 16) & 0xffu);
+    shown.surface = texelSurface(f.instance, TEXEL | f.texel, material, position, normal, normal, view, unpackUv(f.uv), density, side,
+                                 texelRounding(w, f.instance, placement, side), (flags & TEXEL_BACK) == 0u);
+    if (params.spread) shown.surface.normalLength = float(f.measures & 0xffffu) / 65535.0;
     return shown;
 }
 
@@ -75,16 +77,11 @@ float shareOf(Shaded shown, uint i) { return shown.materials > 1u ? float(countO
 Lobes lobesOf(World w, Shaded shown, uint i) {
     Lobes lobes;
     lobes.bsdf = bsdfAt(w, surfaceOf(shown, i));
-    if (params.spread) {
-        lobes.bsdf.alpha = spreadWidth(lobes.bsdf.alpha, shown.size);
-        lobes.bsdf.along = spreadWidth(lobes.bsdf.along, shown.size);
-        lobes.bsdf.coatAlpha = spreadWidth(lobes.bsdf.coatAlpha, shown.size);
-    }
     lobes.chance = lobeProbabilities(lobes.bsdf, shown.surface.view);
     return lobes;
 }
 
-vec3 emissionOf(World w, Shaded shown, uint i) { return texelEmission(w, surfaceOf(shown, i)); }
+vec3 emissionOf(World w, Shaded shown, uint i) { return emittedRadiance(w, surfaceOf(shown, i)); }
 #else
 struct Shaded {
     Surface surface;
@@ -109,7 +106,8 @@ Shaded shadedAt(World w, ivec2 pixel) {
     if (!isShown) return shown;
     vec3 view, position = seenPosition(w, pixel, shown.depth, view);
     float side = shown.depth * w.camera.pixelAngle;
-    shown.surface = texelSurface(shown.baked.instance, NONE, position, unpackNormal(shown.baked.normal), view, vec2(0.0), DENSITY_NONE, side, true);
+    vec3 normal = unpackNormal(shown.baked.normal);
+    shown.surface = texelSurface(shown.baked.instance, NONE, NONE, position, normal, normal, view, vec2(0.0), DENSITY_NONE, side, 2.0 * side, true);
     return shown;
 }
 

@@ -72,6 +72,18 @@ uint levelOfTexel(Impostors impostors, uint index) {
     return level;
 }
 
+/// Which texel of an impostor.
+struct TexelPlace {
+    uint level, view;
+    uvec2 texel;  // x right, y up
+};
+
+/// Inverse of texelIndex.
+TexelPlace texelPlace(Impostors impostors, uint index) {
+    uint level = levelOfTexel(impostors, index), n = levelResolution(impostors, level), inLevel = index - texelIndex(impostors, level, 0u, uvec2(0u));
+    return TexelPlace(level, inLevel / (n * n), uvec2(inLevel % n, inLevel / n % n));
+}
+
 const uint TILE = 8u;  // texels a side
 
 /// Tiles a side of a view at a level: at least one, though the coarsest level has but 4x4 texels.

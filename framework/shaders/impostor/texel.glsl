@@ -24,7 +24,7 @@ struct ImpostorTexel {
     vec3 normal;     // mean of the unit shading normals, in the view's axes: the more they differ the shorter it is
     float depth;     // along the view, in diameters from the near side of the sphere
     float alpha;     // share of the texel that the object covers
-    float density;   // log2 of texture coordinates per side of a texel, or DENSITY_NONE
+    float density;   // log2 of the side of a square as large as what it shows of the texture, in coordinates; or DENSITY_NONE
     uint flags;      // TEXEL_*
     vec2 uv;         // of set 0, modulo 1
     uint material;   // finest level: index in World.materials
@@ -89,11 +89,29 @@ ImpostorTexel unpackShape(ShapeBlockArray blocks, uint block, uint texel) {
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer ShapeArray { uvec4 at[]; };
 
+/// Share of a place of the palette, in 15ths.
+uint countOf(uint counts, uint place) { return (counts >> (4u * place)) & 15u; }
+
+/// The one material of a texel that isn't asked for all of them: of any 15 texels beside each other each place of the palette has as many as its shares are,
+/// so that the mean is right, and always the same ones, so that nothing flickers.
+uint materialOf(ImpostorRecord object, ImpostorTexel t, uvec2 texel) {
+    uint turn = (7u * texel.x + 13u * texel.y) % 15u, place = 0u;
+    for (uint before = countOf(t.counts, 0u); before <= turn && place + 1u < PALETTE;) before += countOf(t.counts, ++place);
+    return object.palette[place];
+}
+
 /// What places and turns the texel: without texture coordinates and materials.
 ImpostorTexel shapeAt(Impostors impostors, uint mesh, uint level, uint view, uvec2 texel) {
     uint64_t shapes = impostors.objects.at[mesh].shapes;
     if (impostors.compressed != 0u) return unpackShape(ShapeBlockArray(shapes), blockIndex(impostors, level, view, texel), blockTexel(texel));
     return unpackShape(ShapeArray(shapes).at[texelIndex(impostors, level, view, texel)]);
+}
+
+/// Share of the texel that the object covers.
+float alphaAt(Impostors impostors, uint mesh, uint level, uint view, uvec2 texel) {
+    uint64_t shapes = impostors.objects.at[mesh].shapes;
+    if (impostors.compressed != 0u) return bc4Decode(ShapeBlockArray(shapes).at[blockIndex(impostors, level, view, texel)].alpha, blockTexel(texel));
+    return uintBitsToFloat(ShapeArray(shapes).at[texelIndex(impostors, level, view, texel)].w);
 }
 
 /// Number among the mesh's materials that a texel of the finest level has.

@@ -20,17 +20,6 @@ struct Surfel {
     uint texel;      // index in the arrays of its mesh's ImpostorRecord
 };
 
-// What an atlas of colours knows of a pixel: materials are evaluated, as baked.
-struct BakedSurface {
-    uint instance;  // NONE: the pixel shows none
-    float depth;    // along the camera's forward direction, scene units
-    uint normal;    // unit, world space, octahedral (packNormal)
-    float alpha;    // share of the pixel that the object covers
-    uvec2 color;    // base colour and perceptual roughness (packColor)
-    uvec2 more;     // emission and metallic (packColor)
-};
-
 LODESTIR_SHARED_END
 LODESTIR_SHARED(Surfel, "impostor/surfel.h")
-LODESTIR_SHARED(BakedSurface, "impostor/surfel.h")
 #endif
