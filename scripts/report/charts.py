@@ -17,6 +17,7 @@ ERROR = {
     "error_vs_time": Chart(error_charts.error_vs_time, "metric"),
     "error_vs_rays": Chart(error_charts.error_vs_rays, "metric"),
     "error_vs_frame": Chart(error_charts.error_vs_frame, "metric"),
+    "time_vs_frame": Chart(error_charts.time_vs_frame),
     "frontier": Chart(error_charts.frontier, "metric"),
     "time_by_pass": Chart(error_charts.time_by_pass),
     "rays_by_pass": Chart(error_charts.rays_by_pass),

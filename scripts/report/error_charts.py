@@ -119,6 +119,19 @@ def error_vs_frame(r, scene, metric):
     return draw_points(d, curves, "frame, counted from the event", with_unit(metric), False, metric["fromZero"], frames=True)
 
 
+def time_vs_frame(r, scene):
+    if len(r.frames) < 2:
+        return None
+    curves = {}
+    for c, configuration in enumerate(r.configurations):
+        for f in numpy.flatnonzero(numpy.isfinite(r.ms[scene, c])):
+            label, ms = configuration.label, r.ms[scene, c, f]
+            about = f"{label}, frame {r.frames[f]}: {number(ms)} ms, {number(r.rays[scene, c, f])} rays a pixel"
+            curves.setdefault(label, (r.place[label], []))[1].append(Point(float(r.frames[f]), ms, about, tuple(r.ms_range[scene, c, f])))
+    d = Drawing(slug(r.scenes[scene], "time_vs_frame"), "Time against the frame")
+    return draw_points(d, curves, "frame, counted from the event", f"time of the frame (ms, {devices(r)})", False, True, frames=True)
+
+
 def stability(r, scene, metric):
     """The error as a multiple of the first measured frame's: what an event does to a technique, whatever its level."""
     if len(r.frames) < 2 or not metric["fromZero"]:

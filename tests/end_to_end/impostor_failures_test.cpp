@@ -58,6 +58,8 @@ public:
             frames->run();
         }
     }
+    /// The impostor's next frame, with history.
+    void next() { drawn_.run(); }
     /// Exposed colour times coverage, and coverage.
     ImageData drawn() { return premultiplied(drawn_.image("shade.color")); }
     /// The same of the geometry, the mean of 3 x 3 samples.
@@ -251,23 +253,44 @@ TEST(ImpostorFailures, ManyMaterialsInATexel) {
     }
 }
 
+/// FLIP over the pixels that either picture shows.
+double flipOf(const ImageData& after, const ImageData& before) {
+    std::vector<bool> mask;
+    for (std::size_t i = 3; i < before.values.size(); i += 4) mask.push_back(before.values[i] > 0 || after.values[i] > 0);
+    return evaluate("flip_ldr", firstChannels(after, 3), firstChannels(before, 3), {.mask = mask});
+}
+
 TEST(ImpostorFailures, SwitchesOfLevel) {
     Pair pair("bunny", "bunny");
     pair.set("draw.level", Json("fixed"));
     // Where the next level's texels are nearly as wide as pixels (impostor_forward_map): the object spans six sevenths of the picture once.
     for (const int level : {0, 1, 2}) {
         const double distance = 2 * std::pow(2, level);
-        pair.set("draw.bias", Json(level));
-        pair.look(distance, 0, 0, false);
-        const ImageData before = pair.drawn();
         pair.set("draw.bias", Json(level + 1));
         pair.look(distance, 0, 0, false);
         const ImageData after = pair.drawn();
-        std::vector<bool> mask;
-        for (std::size_t i = 3; i < before.values.size(); i += 4) mask.push_back(before.values[i] > 0 || after.values[i] > 0);
-        const double flip = evaluate("flip_ldr", firstChannels(after, 3), firstChannels(before, 3), {.mask = mask});
-        std::printf("level %d to %d: FLIP %.4f\n", level, level + 1, flip);
+        pair.set("draw.bias", Json(level));
+        pair.look(distance, 0, 0, false);
+        const ImageData before = pair.drawn();
+        const double flip = flipOf(after, before);
         EXPECT_LT(flip, level == 0 ? 0.1 : 0.15);
+
+        // Pixel by pixel, over half a second.
+        pair.set("draw.transition", Json(31));
+        pair.set("draw.bias", Json(level + 1));
+        ImageData last = before;
+        double most = 0;
+        for (int frame = 0; frame < 32; ++frame) {
+            pair.next();
+            const ImageData now = pair.drawn();
+            most = std::max(most, flipOf(now, last));
+            last = now;
+        }
+        pair.set("draw.transition", Json(0));
+        std::printf("level %d to %d: FLIP %.4f; over 32 frames %.4f at most\n", level, level + 1, flip, most);
+        EXPECT_LT(most, 0.03);
+        EXPECT_GT(most, 0);
+        EXPECT_EQ(last.values, after.values);
     }
 }
 

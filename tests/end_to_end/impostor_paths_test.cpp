@@ -4,6 +4,7 @@
 #include "frames.h"
 #include "program.h"
 
+#include <framework/image/metrics.h>
 #include <framework/shaders/impostor/surfel.h>
 #include <framework/shaders/world/primary_hit.h>
 #include <framework/study/ensemble/ensemble.h>
@@ -149,6 +150,53 @@ TEST(ImpostorPathsUnbiased, ReuseHasTheMeanOfPathTracing) {
     std::printf("%+.2f %% +- %.2f %%\n", 100 * (result.energy[0] / result.referenceEnergy[0] - 1), 100 * result.halfWidth);
     EXPECT_EQ(result.verdict, Verdict::unbiased) << result.reason;
     EXPECT_LE(result.halfWidth, 0.01);
+}
+
+// If this fails, geometry and impostor don't take over from each other: both are gone for a frame, holes are filled where the geometry still shows, or it pops.
+TEST_F(ImpostorPaths, GeometryFadesIntoTheImpostorAndBack) {
+    OrderedJson passes = hitsOfBoth({{"resolution", 128}, {"mesh", "bunny"}}, {{"hysteresis", 0}});
+    passes["hits"]["in"].erase("worldPrev");
+    passes["shade"] = {{"type", "reshade"}, {"in", {{"world", "draw.world"}, {"hits", "hits"}}}};
+    passes.erase("truth");
+    Frames frames(sceneFile("bunny"), {128, 128}, passes, {"shade.color", "hits.hits"});
+    const auto picture = [&] {
+        ImageData color = firstChannels(frames.image("shade.color"), 3);
+        for (float& value : color.values) value *= float(std::exp2(frames.scene().exposure));
+        return color;
+    };
+    const auto texels = [&] {
+        const std::vector<PrimaryHit> hits = frames.records<PrimaryHit>("hits.hits");
+        return std::ranges::count_if(hits, [](const PrimaryHit& h) { return h.primitive >= texel && h.primitive != nothing; });
+    };
+    const auto hard = [&](double pixelError) {
+        frames.set("draw.pixelError", Json(pixelError));
+        frames.restart(0);
+        frames.run();
+        return picture();
+    };
+    const ImageData impostor = hard(0);
+    const auto all = texels();
+    const ImageData geometry = hard(0.001);  // texels are nowhere so small
+    EXPECT_EQ(texels(), 0);
+    EXPECT_GT(all, 2000);
+    const double flip = evaluate("flip_ldr", impostor, geometry, {});
+    frames.set("draw.transition", Json(7));
+    ImageData last = geometry;
+    for (const bool toImpostor : {true, false}) {
+        frames.set("draw.pixelError", Json(toImpostor ? 0.0 : 0.001));
+        double most = 0;
+        for (int frame = 0; frame < 8; ++frame) {
+            frames.run();
+            const ImageData now = picture();
+            most = std::max(most, evaluate("flip_ldr", now, last, {}));
+            last = now;
+            const double share = double(texels()) / double(all), wanted = (frame + 1) / 8.0;
+            EXPECT_NEAR(share, toImpostor ? wanted : 1 - wanted, 0.05) << frame;
+        }
+        std::printf("FLIP of the switch %.4f, of eight steps at most %.4f\n", flip, most);
+        EXPECT_LT(most, 0.5 * flip);
+        EXPECT_EQ(last.values, (toImpostor ? impostor : geometry).values);
+    }
 }
 
 // A graph that draws impostors over the geometry that they stand for is told so.

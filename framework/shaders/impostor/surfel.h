@@ -6,7 +6,9 @@
 
 LODESTIR_SHARED_BEGIN
 
-const uint SURFEL_COUNTS = 8u;  // among the flags of Surfel.measures, beside TEXEL_*: its materials are counts
+// Among the flags of Surfel.measures, beside TEXEL_*.
+const uint SURFEL_COUNTS = 8u;  // its materials are counts
+const uint SURFEL_FADES = 16u;  // pixels around it may show the geometry instead: they are no holes
 
 // A texel of an impostor where it landed: materials are named, not evaluated, so that they may change at any time.
 struct Surfel {

@@ -34,9 +34,9 @@ std::optional<int> draw(const Path& out) {
 }  // namespace
 
 std::vector<std::string> chartNames() {
-    return {"error_vs_time",   "error_vs_rays", "error_vs_frame", "frontier", "time_by_pass",  "rays_by_pass",
-            "rays_by_purpose", "stability",     "comparison",     "ablation", "bias_variance", "stability_matrix",
-            "error_vs_count",  "needs",         "advantage",      "cost_vs_model", "outcomes"};
+    return {"error_vs_time",   "error_vs_rays", "error_vs_frame", "time_vs_frame", "frontier",      "time_by_pass",
+            "rays_by_pass",    "rays_by_purpose", "stability",    "comparison",    "ablation",      "bias_variance",
+            "stability_matrix", "error_vs_count", "needs",        "advantage",     "cost_vs_model", "outcomes"};
 }
 
 void writeReport(const Path& out, const nlohmann::ordered_json& summary) {

@@ -15,6 +15,7 @@ struct Orbit final : Pass {
                           "that are spread evenly over the sphere, and then again; 0: from the camera's own, turned"};
     Param<float> turn{this, "turn", 0, {-360, 360}, "without directions: degrees around the vertical axis a frame"};
     Param<float> distance{this, "distance", 1, {0.001f, 1e6f}, "from the point in focus, as a multiple of the camera's"};
+    Param<float> recede{this, "recede", 1, {0.1f, 10}, "what the distance grows by a frame, a factor"};
     PassThrough  off{this, world, worldOut};
 
     void execute(Frame& frame) override {
@@ -26,7 +27,7 @@ struct Orbit final : Pass {
         camera.forward = -from;
         camera.right = glm::length(camera.right) * glm::normalize(glm::cross(camera.forward, up));
         camera.up = glm::length(camera.up) * glm::normalize(glm::cross(camera.right, camera.forward));
-        camera.focus *= distance;
+        camera.focus *= distance * std::pow(float(recede), float(frame.index()));
         camera.position = center + camera.focus * from;
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), nullptr);
     }
@@ -45,4 +46,4 @@ private:
         return {c * way.x + s * way.z, way.y, c * way.z - s * way.x};
     }
 };
-LODESTIR_PASS(Orbit, "", "Leads the scene's camera around the point it has in focus: over a sphere of directions, or in steps of an angle.")
+LODESTIR_PASS(Orbit, "", "Leads the scene's camera around the point it has in focus: over a sphere of directions, in steps of an angle, or away from it.")

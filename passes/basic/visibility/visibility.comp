@@ -25,7 +25,8 @@ World pathWorld(World now, uint item) { return rest(); }
 void meetSurfel(inout Path p, World w, ivec2 pixel) {
     Surfel f = surfels(pixelIndex(pixel));
     float forward = dot(p.ray.direction, w.camera.forward);
-    if (f.instance == NONE || (p.hit.primitive != NONE && p.hit.t * forward < f.depth)) return;
+    bool isHidden = p.hit.primitive != NONE && p.hit.instance != f.instance && p.hit.t * forward < f.depth;  // its own geometry makes way where it fades
+    if (f.instance == NONE || isHidden) return;
     SurfacePoint found = surfelPoint(w, f, p.ray.origin + f.depth / forward * p.ray.direction);
     p.hit = Hit(f.depth / forward, found.barycentrics, found.primitive, found.instance);
 }

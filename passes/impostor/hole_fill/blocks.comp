@@ -52,7 +52,7 @@ void main() {
     Neighbour own = at(w, p), reference;
     Surfel made = own.f;
     bool isFilled = false;
-    if (params.stage1 && isHole(w, p, own, reference)) {
+    if (params.stage1 && !fades(own.f) && isHole(w, p, own, reference)) {
         Ray ray = pixelRay(w, p);
         float depth = planeDepth(w, reference, ray, float(REACH) * 4.0);
         vec3 center = ray.origin + depth / dot(ray.direction, w.camera.forward) * ray.direction, normal = vec3(0.0);

@@ -99,7 +99,7 @@ void main() {
     ivec2 p = pixel();
     Surfel made = blocks(pixelIndex(p)), other;
     World w = world();
-    if (params.stage2 && mayChange(w, p, made)) {
+    if (params.stage2 && !fades(made) && mayChange(w, p, made)) {
         Neighbour own = neighbourOf(w, p, made);
         if (closes(w, p, own, other) || continues(w, p, own, other)) {
             made = other;

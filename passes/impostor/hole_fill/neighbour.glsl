@@ -20,10 +20,13 @@ const Surfel NOTHING = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
 
 float widthAt(World w, float depth) { return w.camera.orthographic != 0u ? w.camera.pixelAngle : depth * w.camera.pixelAngle; }
 
+/// Does it share its pixels with geometry? Then nothing is missing around it, and it fills nothing.
+bool fades(Surfel f) { return f.instance != NONE && (f.measures >> 24 & SURFEL_FADES) != 0u; }
+
 Neighbour neighbourOf(World w, ivec2 p, Surfel f) {
     Neighbour n;
     n.f = f;
-    n.isThere = f.instance != NONE;
+    n.isThere = f.instance != NONE && !fades(f);
     if (!n.isThere) return n;
     Ray ray = pixelRay(w, p);
     n.position = ray.origin + f.depth / dot(ray.direction, w.camera.forward) * ray.direction;

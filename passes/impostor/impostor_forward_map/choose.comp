@@ -15,6 +15,22 @@ const float NEAREST = 1e-3;
 
 float nearSide(float radius, float scale, float distance) { return max(distance - scale * radius, NEAREST * scale * radius); }
 
+/// What an instance was drawn as last frame.
+struct DrawnBefore {
+    bool isKnown;
+    uint level, before;  // as in Drawn; the same where nothing fades
+    uint frame;          // in which it passed from one to the other, modulo 2^16
+};
+
+DrawnBefore drawnBefore(uint instance) {
+    uint bits = instance < levelsCount() && historyValid() ? levels(instance) : 0u;
+    return DrawnBefore((bits & 0x100u) != 0u, bits & 15u, bits >> 4 & 15u, bits >> 16);
+}
+
+void remember(uint instance, DrawnBefore d) {
+    if (instance < levelsCount()) storeLevels(instance, d.level | d.before << 4 | 0x100u | d.frame << 16);
+}
+
 /// log2 of finest texels per pixel, where the object is nearest.
 float finestTexels(World w, Impostors made, float radius, float scale, float distance) {
     float pixel = w.camera.orthographic != 0u ? w.camera.pixelAngle : nearSide(radius, scale, distance) * w.camera.pixelAngle;
@@ -34,10 +50,10 @@ bool isFineEnough(float texels, bool wasDrawn) {
 }
 
 /// The wish rounded down, but the level of last frame as long as it isn't `hysteresis` beyond its borders.
-uint heldLevel(float wish, uint last, uint most) {
+uint heldLevel(float wish, DrawnBefore last, uint most) {
     float held = floor(wish);
-    if (last != 0u && historyValid()) {
-        float before = float(last - 1u);
+    if (last.isKnown && last.level != NOT_DRAWN) {
+        float before = float(last.level);
         if (wish > before - params.hysteresis && wish < before + 1.0 + params.hysteresis) held = before;
     }
     return uint(clamp(held, 0.0, float(most)));
@@ -53,14 +69,24 @@ uint keptViews(Impostors made, Placement placement, vec3 towards) {
     return views;
 }
 
-/// What others show of an instance: camera rays nothing of what is drawn here, all other rays a coarse level of its mesh.
-void showElsewhere(World w, uint instance, bool isDrawn, bool changes) {
-    uint shown = w.levels.at[instance], most = w.meshes.at[w.instances.at[instance].mesh].levels - 1u;
-    Words(uint64_t(rest().levels)).at[instance] = isDrawn ? LEVELS : shown;
-    Words(uint64_t(madeWorld().levels)).at[instance] = isDrawn && shown < LEVELS ? clamp(shown + uint(params.coarser), shown, max(most, shown)) : shown;
+/// What others show of an instance: camera rays its geometry, where that isn't drawn here or still fades; all other rays, where it is drawn, a coarse level.
+void showElsewhere(World w, uint instance, Drawn d, bool changes) {
+    uint shown = w.levels.at[instance], coarsest = max(w.meshes.at[w.instances.at[instance].mesh].levels - 1u, shown);
+    bool isDrawn = d.level != NOT_DRAWN, isSeen = !isDrawn || (d.share < 1.0 && d.before == NOT_DRAWN);
+    Words(uint64_t(rest().levels)).at[instance] = isSeen ? shown : LEVELS;
+    Words(uint64_t(madeWorld().levels)).at[instance] = isDrawn && shown < LEVELS ? min(shown + uint(params.coarser), coarsest) : shown;
     if (!changes) return;
     atomicOr(Words(uint64_t(rest().levelsChanged)).at[0], 1u);
     atomicOr(Words(uint64_t(madeWorld().levelsChanged)).at[0], 1u);
+}
+
+uint tilesOf(Impostors made, Drawn d) { return tilesOfLevel(made, d.level, d.views) + tilesOfLevel(made, d.before, d.views); }
+
+/// The same, its levels coarser.
+Drawn coarserBy(Impostors made, Drawn d, uint levels) {
+    if (d.level != NOT_DRAWN) d.level = min(d.level + levels, made.levels - 1u);
+    if (d.before != NOT_DRAWN) d.before = min(d.before + levels, made.levels - 1u);
+    return d;
 }
 
 void main() {
@@ -70,31 +96,39 @@ void main() {
     Impostors made = impostors();
     InstanceRecord record = w.instances.at[instance];
     ImpostorRecord object = made.objects.at[record.mesh];
-    bool isDrawn = object.radius > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u;
     Placement placement = placementOf(w, instance);
     float scale = placementScale(placement);
     vec3 way = w.camera.position - placePoint(placement, object.center);
-    if (dot(-way, w.camera.forward) < -scale * object.radius) isDrawn = false;
-
-    bool isKnown = instance < levelsCount();
-    uint last = isKnown ? levels(instance) : 0u;
-    bool wasDrawn = last != 0u && historyValid();
-    if (!isFineEnough(finestTexels(w, made, object.radius, scale, length(way)), wasDrawn)) isDrawn = false;
-    uint level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), last, made.levels - 1u);
+    DrawnBefore last = drawnBefore(instance), now = DrawnBefore(true, NOT_DRAWN, NOT_DRAWN, frameIndex() & 0xffffu);
+    bool wasDrawn = last.isKnown && last.level != NOT_DRAWN;
+    if (object.radius > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u && isFineEnough(finestTexels(w, made, object.radius, scale, length(way)), wasDrawn))
+        now.level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), last, made.levels - 1u);
+    now.before = last.isKnown ? last.level : now.level;
+    if (last.isKnown && last.before != last.level && now.level == last.level) {  // it goes on
+        now.before = last.before;
+        now.frame = last.frame;
+    }
+    Drawn d = Drawn(now.level, now.before, 1.0, 0u);
+    if (now.before != now.level) d.share = float(((frameIndex() - now.frame) & 0xffffu) + 1u) / float(params.transition + 1);
+    if (d.share >= 1.0) {
+        d.before = NOT_DRAWN;
+        now.before = now.level;
+    }
     vec3 towards = w.camera.orthographic != 0u ? -w.camera.forward : safeNormalize(way, -w.camera.forward);
-    uint views = isDrawn ? keptViews(made, placement, towards) : 0u;
+    bool isInFront = dot(-way, w.camera.forward) >= -scale * object.radius;
+    if (isInFront && (d.level != NOT_DRAWN || d.before != NOT_DRAWN)) d.views = keptViews(made, placement, towards);
 
     Totals sums = Totals(passBlock().totals.address);
     if (argument(0) == 0u) {
-        for (uint coarser = 0u; coarser < 8u; ++coarser)
-            atomicAdd(sums.at[coarser], uint64_t(bitCount(views) * tilesInView(made, min(level + coarser, made.levels - 1u))));
+        for (uint coarser = 0u; coarser < 8u; ++coarser) atomicAdd(sums.at[coarser], uint64_t(tilesOf(made, coarserBy(made, d, coarser))));
         return;
     }
     uint coarser = 0u;
     while (coarser < 7u && sums.at[coarser] > uint64_t(params.tiles)) ++coarser;
-    if (isKnown) storeLevels(instance, isDrawn ? level + 1u : 0u);
-    showElsewhere(w, instance, isDrawn, isDrawn != wasDrawn || !historyValid() || (instance == 0u && w.levelsChanged.at[0] != 0u));
-    level = min(level + coarser, made.levels - 1u);
-    storeDrawn(instance, Drawn(level, views));
-    storeItems(instance, bitCount(views) * tilesInView(made, level));
+    bool changes = !last.isKnown || (now.level == NOT_DRAWN) != (last.level == NOT_DRAWN) || (last.before != last.level && last.before == NOT_DRAWN);
+    showElsewhere(w, instance, d, changes || (instance == 0u && w.levelsChanged.at[0] != 0u));
+    remember(instance, now);
+    d = coarserBy(made, d, coarser);
+    storeDrawn(instance, d);
+    storeItems(instance, tilesOf(made, d));
 }

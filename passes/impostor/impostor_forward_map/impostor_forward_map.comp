@@ -18,6 +18,11 @@ void nameMaterials(inout Surfel f, ImpostorRecord object, ImpostorTexel t) {
     }
 }
 
+bool fadesWithGeometry(uint instance) {
+    Drawn d = drawn(instance);
+    return d.share < 1.0 && (d.level == NOT_DRAWN || d.before == NOT_DRAWN);
+}
+
 void main() {
     if (skip()) return;
     ivec2 p = pixel();
@@ -36,6 +41,7 @@ void main() {
         f.depth = depthIn(s, p);
         f.normal = packNormal(s.normal);
         if (s.turned) t.flags ^= TEXEL_BACK;
+        if (fadesWithGeometry(x.instance)) t.flags |= SURFEL_FADES;
         f.measures = packShape(t).z;
         f.uv = packUv(t.uv);
         f.materials = t.material;

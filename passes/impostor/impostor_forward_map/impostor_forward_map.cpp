@@ -21,7 +21,8 @@ struct ImpostorForwardMap final : Pass {
     Out<World>                rest{this, "rest", "the scene for camera rays: without the instances that are drawn as impostors"};
     Out<Buffer<Surfel>>       surfels{this, "surfels", "what each pixel shows of them", Count::perPixel()};
     Out<Buffer<uint>>         texels{this, "texels", "that were scattered, those of empty tiles left out: 64 bits, the low word first", Count::fixed(2)};
-    State<Buffer<uint>>       levels{this, "levels", "1 + the level that each instance is drawn at; 0: it never was", Count::fixed(1 << 16)};
+    State<Buffer<uint>>       levels{this, "levels", "of each instance: what it is drawn as, what it was before, and since when (choose.comp)",
+                                     Count::fixed(1 << 16)};
     Scratch<Buffer<Drawn>>    drawn{this, "drawn", "what of each instance is drawn", Count::reserved()};
     InstanceItems             numbered{this};
     Scratch<Buffer<uint>>     totals{this, "totals", "tiles if all levels were so much coarser, 64 bits each", Count::fixed(16)};
@@ -37,6 +38,8 @@ struct ImpostorForwardMap final : Pass {
     Param<float>              bias{this, "bias", 0, {-16, 16}, "added to the level; of fixed: the level"};
     Param<float>              hysteresis{this, "hysteresis", 0.15f, {0, 1},
                                          "levels by which the wish has to pass a border before the level changes, or geometry takes over"};
+    Param<int>                transition{this, "transition", 0, {0, 1000},
+                                         "frames in which a level takes over from another, or from geometry, pixel by pixel; 0: at once"};
     Param<float>              viewLimit{this, "viewLimit", -0.3f, {-1, 1}, "least cosine between a view's direction and the camera's for it to be drawn"};
     Param<float>              tolerance{this, "tolerance", 1.5f, {0, 16},
                                         "texel sides by which depths may differ and count as one surface, of which the texel that was seen most "

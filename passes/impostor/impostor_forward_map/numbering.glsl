@@ -9,7 +9,11 @@ const uint TILE_NUMBERS = 64u;
 struct DrawnTexel {
     uint instance;
     TexelPlace place;
+    bool fades;  // it is of the level that others take over from
 };
+
+/// Tiles of a level in all views that are kept.
+uint tilesOfLevel(Impostors made, uint level, uint views) { return level == NOT_DRAWN ? 0u : bitCount(views) * tilesInView(made, level); }
 
 /// The i-th view that is kept.
 uint keptView(uint views, uint i) {
@@ -22,8 +26,11 @@ DrawnTexel tileOfNumber(Impostors made, uint tile) {
     DrawnTexel found;
     found.instance = instanceOfItem(tile);
     Drawn d = drawn(found.instance);
-    uint first = items(found.instance), across = tilesAcross(made, d.level), perView = tilesInView(made, d.level), inView = (tile - first) % perView;
-    found.place = TexelPlace(d.level, keptView(d.views, (tile - first) / perView), TILE * uvec2(inView % across, inView / across));
+    uint i = tile - items(found.instance), ofLevel = tilesOfLevel(made, d.level, d.views);
+    found.fades = i >= ofLevel;
+    if (found.fades) i -= ofLevel;
+    uint level = found.fades ? d.before : d.level, across = tilesAcross(made, level), perView = tilesInView(made, level), inView = i % perView;
+    found.place = TexelPlace(level, keptView(d.views, i / perView), TILE * uvec2(inView % across, inView / across));
     return found;
 }
 

@@ -33,6 +33,15 @@ void offer(ivec2 pixel, uint number, uint near) {
     else if (keys.at[i].high == near) atomicMin(keys.at[i].low, number);
 }
 
+/// Levels that take over from each other share the pixels, by a pattern that stays while the share grows (Jimenez 2014, Next Generation Post Processing in Call
+/// of Duty: Advanced Warfare: interleaved gradient noise).
+bool isShownIn(ivec2 pixel, DrawnTexel x) {
+    Drawn d = drawn(x.instance);
+    if (d.share >= 1.0) return !x.fades;
+    float place = fract(52.9829189 * fract(dot(vec2(pixel), vec2(0.06711056, 0.00583715))));
+    return (place < d.share) != x.fades;
+}
+
 void draw(World w, Impostors made, uint number) {
     DrawnTexel x;
     if (!texelOfNumber(made, number, x)) return;
@@ -43,12 +52,12 @@ void draw(World w, Impostors made, uint number) {
     if (!params.blend) part = coveredPart(made, w.instances.at[x.instance].mesh, x.place, t.alpha, params.cutoff);
     if (argument(0) == 0u && addTexels(0u, 1u) == 0xffffffffu) addTexels(1u, 1u);
     ivec2 middle = centerPixel(s), reach = min(ivec2(params.footprint / 2), ivec2(ceil(OVERLAP * (abs(s.a) + abs(s.b)))));
-    for (int y = -reach.y; y <= reach.y; ++y) {
-        for (int x = -reach.x; x <= reach.x; ++x) {
-            ivec2 pixel = middle + ivec2(x, y);
-            bool isCenter = x == 0 && y == 0;
+    for (int v = -reach.y; v <= reach.y; ++v) {
+        for (int u = -reach.x; u <= reach.x; ++u) {
+            ivec2 pixel = middle + ivec2(u, v);
+            bool isCenter = u == 0 && v == 0;
             if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frameSize())))) continue;
-            if (covers(s, pixel, part)) offer(pixel, number, nearness(s, t, pixel, isCenter));
+            if (covers(s, pixel, part) && isShownIn(pixel, x)) offer(pixel, number, nearness(s, t, pixel, isCenter));
         }
     }
 }
