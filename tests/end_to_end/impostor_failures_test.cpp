@@ -273,7 +273,7 @@ TEST(ImpostorFailures, SwitchesOfLevel) {
         pair.look(distance, 0, 0, false);
         const ImageData before = pair.drawn();
         const double flip = flipOf(after, before);
-        EXPECT_LT(flip, level == 0 ? 0.1 : 0.15);
+        EXPECT_LT(flip, 0.1);
 
         // Pixel by pixel, over half a second.
         pair.set("draw.transition", Json(31));

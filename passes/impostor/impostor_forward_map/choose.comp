@@ -18,7 +18,7 @@ float nearSide(float radius, float scale, float distance) { return max(distance 
 /// What an instance was drawn as last frame.
 struct DrawnBefore {
     bool isKnown;
-    uint level, before;  // as in Drawn; the same where nothing fades
+    uint level, before;  // the same where nothing fades
     uint frame;          // in which it passed from one to the other, modulo 2^16
 };
 
@@ -59,12 +59,17 @@ uint heldLevel(float wish, DrawnBefore last, uint most) {
     return uint(clamp(held, 0.0, float(most)));
 }
 
+// What only oblique views see is the smaller the smaller the object is, and what all of them draw is thicker than each: of a level as many cosines more.
+const float FEWER = 0.2;
+const float FEWEST = 0.57;  // below the cosine from a corner of the cube to the nearest of 6 views
+
 /// A bit for each view that stands on the camera's side. `towards`: from the object to the camera, unit, world space.
-uint keptViews(Impostors made, Placement placement, vec3 towards) {
+uint keptViews(Impostors made, Placement placement, vec3 towards, uint level) {
+    float limit = max(params.viewLimit, min(params.viewLimit + FEWER * float(level), FEWEST));
     uint views = 0u;
     for (uint view = 0u; view < made.views; ++view) {
         vec3 direction = normalize(placeVector(placement, viewDirection(made.views, view)));
-        if (dot(direction, towards) >= params.viewLimit) views |= 1u << view;
+        if (dot(direction, towards) >= limit) views |= 1u << view;
     }
     return views;
 }
@@ -72,7 +77,7 @@ uint keptViews(Impostors made, Placement placement, vec3 towards) {
 /// What others show of an instance: camera rays its geometry, where that isn't drawn here or still fades; all other rays, where it is drawn, a coarse level.
 void showElsewhere(World w, uint instance, Drawn d, bool changes) {
     uint shown = w.levels.at[instance], coarsest = max(w.meshes.at[w.instances.at[instance].mesh].levels - 1u, shown);
-    bool isDrawn = d.level != NOT_DRAWN, isSeen = !isDrawn || (d.share < 1.0 && d.before == NOT_DRAWN);
+    bool isDrawn = d.now.level != NOT_DRAWN, isSeen = !isDrawn || (d.share < 1.0 && d.before.level == NOT_DRAWN);
     Words(uint64_t(rest().levels)).at[instance] = isSeen ? shown : LEVELS;
     Words(uint64_t(madeWorld().levels)).at[instance] = isDrawn && shown < LEVELS ? min(shown + uint(params.coarser), coarsest) : shown;
     if (!changes) return;
@@ -80,12 +85,39 @@ void showElsewhere(World w, uint instance, Drawn d, bool changes) {
     atomicOr(Words(uint64_t(madeWorld().levelsChanged)).at[0], 1u);
 }
 
-uint tilesOf(Impostors made, Drawn d) { return tilesOfLevel(made, d.level, d.views) + tilesOfLevel(made, d.before, d.views); }
+uint tilesOf(Impostors made, Drawn d) { return tilesOf(made, d.now) + tilesOf(made, d.before); }
 
 /// The same, its levels coarser.
 Drawn coarserBy(Impostors made, Drawn d, uint levels) {
-    if (d.level != NOT_DRAWN) d.level = min(d.level + levels, made.levels - 1u);
-    if (d.before != NOT_DRAWN) d.before = min(d.before + levels, made.levels - 1u);
+    if (d.now.level != NOT_DRAWN) d.now.level = min(d.now.level + levels, made.levels - 1u);
+    if (d.before.level != NOT_DRAWN) d.before.level = min(d.before.level + levels, made.levels - 1u);
+    return d;
+}
+
+/// What an instance is drawn as in this frame. `kept`: what the next frame has to know.
+Drawn choose(World w, Impostors made, uint instance, DrawnBefore last, out DrawnBefore kept) {
+    InstanceRecord record = w.instances.at[instance];
+    ImpostorRecord object = made.objects.at[record.mesh];
+    Placement placement = placementOf(w, instance);
+    float scale = placementScale(placement);
+    vec3 way = w.camera.position - placePoint(placement, object.center);
+    bool wasDrawn = last.isKnown && last.level != NOT_DRAWN;
+    kept = DrawnBefore(true, NOT_DRAWN, NOT_DRAWN, frameIndex() & 0xffffu);
+    if (object.radius > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u && isFineEnough(finestTexels(w, made, object.radius, scale, length(way)), wasDrawn))
+        kept.level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), last, made.levels - 1u);
+    kept.before = last.isKnown ? last.level : kept.level;
+    if (last.isKnown && last.before != last.level && kept.level == last.level) {  // it goes on
+        kept.before = last.before;
+        kept.frame = last.frame;
+    }
+    Drawn d = Drawn(DrawnLevel(kept.level, 0u), DrawnLevel(kept.before, 0u), 1.0);
+    if (kept.before != kept.level) d.share = float(((frameIndex() - kept.frame) & 0xffffu) + 1u) / float(params.transition + 1);
+    if (d.share >= 1.0) d.before.level = NOT_DRAWN;
+    if (d.share >= 1.0) kept.before = kept.level;
+    if (dot(-way, w.camera.forward) < -scale * object.radius) return d;  // behind the camera
+    vec3 towards = w.camera.orthographic != 0u ? -w.camera.forward : safeNormalize(way, -w.camera.forward);
+    if (d.now.level != NOT_DRAWN) d.now.views = keptViews(made, placement, towards, d.now.level);
+    if (d.before.level != NOT_DRAWN) d.before.views = keptViews(made, placement, towards, d.before.level);
     return d;
 }
 
@@ -94,30 +126,8 @@ void main() {
     uint instance = uint(pixel().x);
     World w = world();
     Impostors made = impostors();
-    InstanceRecord record = w.instances.at[instance];
-    ImpostorRecord object = made.objects.at[record.mesh];
-    Placement placement = placementOf(w, instance);
-    float scale = placementScale(placement);
-    vec3 way = w.camera.position - placePoint(placement, object.center);
-    DrawnBefore last = drawnBefore(instance), now = DrawnBefore(true, NOT_DRAWN, NOT_DRAWN, frameIndex() & 0xffffu);
-    bool wasDrawn = last.isKnown && last.level != NOT_DRAWN;
-    if (object.radius > 0.0 && (record.flags & INSTANCE_HIDDEN) == 0u && isFineEnough(finestTexels(w, made, object.radius, scale, length(way)), wasDrawn))
-        now.level = heldLevel(wishedLevel(w, made, object.radius, scale, length(way)), last, made.levels - 1u);
-    now.before = last.isKnown ? last.level : now.level;
-    if (last.isKnown && last.before != last.level && now.level == last.level) {  // it goes on
-        now.before = last.before;
-        now.frame = last.frame;
-    }
-    Drawn d = Drawn(now.level, now.before, 1.0, 0u);
-    if (now.before != now.level) d.share = float(((frameIndex() - now.frame) & 0xffffu) + 1u) / float(params.transition + 1);
-    if (d.share >= 1.0) {
-        d.before = NOT_DRAWN;
-        now.before = now.level;
-    }
-    vec3 towards = w.camera.orthographic != 0u ? -w.camera.forward : safeNormalize(way, -w.camera.forward);
-    bool isInFront = dot(-way, w.camera.forward) >= -scale * object.radius;
-    if (isInFront && (d.level != NOT_DRAWN || d.before != NOT_DRAWN)) d.views = keptViews(made, placement, towards);
-
+    DrawnBefore last = drawnBefore(instance), kept;
+    Drawn d = choose(w, made, instance, last, kept);
     Totals sums = Totals(passBlock().totals.address);
     if (argument(0) == 0u) {
         for (uint coarser = 0u; coarser < 8u; ++coarser) atomicAdd(sums.at[coarser], uint64_t(tilesOf(made, coarserBy(made, d, coarser))));
@@ -125,9 +135,9 @@ void main() {
     }
     uint coarser = 0u;
     while (coarser < 7u && sums.at[coarser] > uint64_t(params.tiles)) ++coarser;
-    bool changes = !last.isKnown || (now.level == NOT_DRAWN) != (last.level == NOT_DRAWN) || (last.before != last.level && last.before == NOT_DRAWN);
+    bool changes = !last.isKnown || (kept.level == NOT_DRAWN) != (last.level == NOT_DRAWN) || (last.before != last.level && last.before == NOT_DRAWN);
     showElsewhere(w, instance, d, changes || (instance == 0u && w.levelsChanged.at[0] != 0u));
-    remember(instance, now);
+    remember(instance, kept);
     d = coarserBy(made, d, coarser);
     storeDrawn(instance, d);
     storeItems(instance, tilesOf(made, d));

@@ -10,11 +10,14 @@ const uint NOT_DRAWN = 15u;  // as a level: as geometry, or not at all
 
 // Tiles of 8x8 texels (4x4 where a level has no more) are numbered through the frame: instance after instance, in each first the tiles of the level, then those
 // of the level that it fades out of, in each view after view that is kept.
+struct DrawnLevel {
+    uint level;  // NOT_DRAWN: none
+    uint views;  // a bit for each that is kept
+};
+
 struct Drawn {
-    uint level;   // NOT_DRAWN: none
-    uint before;  // the level that fades out, NOT_DRAWN: none
-    float share;  // of the pixels that the level has by now
-    uint views;   // a bit for each that is kept
+    DrawnLevel now, before;  // before: what fades out
+    float share;             // of the pixels that `now` has by now
 };
 
 // The nearest texel of a pixel: a number of 64 bits whose order is that of nearness.

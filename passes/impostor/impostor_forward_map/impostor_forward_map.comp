@@ -20,7 +20,7 @@ void nameMaterials(inout Surfel f, ImpostorRecord object, ImpostorTexel t) {
 
 bool fadesWithGeometry(uint instance) {
     Drawn d = drawn(instance);
-    return d.share < 1.0 && (d.level == NOT_DRAWN || d.before == NOT_DRAWN);
+    return d.share < 1.0 && (d.now.level == NOT_DRAWN || d.before.level == NOT_DRAWN);
 }
 
 void main() {

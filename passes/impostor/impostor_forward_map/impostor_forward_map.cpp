@@ -40,7 +40,9 @@ struct ImpostorForwardMap final : Pass {
                                          "levels by which the wish has to pass a border before the level changes, or geometry takes over"};
     Param<int>                transition{this, "transition", 0, {0, 1000},
                                          "frames in which a level takes over from another, or from geometry, pixel by pixel; 0: at once"};
-    Param<float>              viewLimit{this, "viewLimit", -0.3f, {-1, 1}, "least cosine between a view's direction and the camera's for it to be drawn"};
+    Param<float>              viewLimit{this, "viewLimit", 0, {-1, 1},
+                                        "least cosine between a view's direction and the camera's for it to be drawn at the finest level: more views see more, "
+                                        "take longer, and draw outlines thicker; coarser levels are drawn from fewer"};
     Param<float>              tolerance{this, "tolerance", 1.5f, {0, 16},
                                         "texel sides by which depths may differ and count as one surface, of which the texel that was seen most "
                                         "frontally wins; "

@@ -12,8 +12,8 @@ struct DrawnTexel {
     bool fades;  // it is of the level that others take over from
 };
 
-/// Tiles of a level in all views that are kept.
-uint tilesOfLevel(Impostors made, uint level, uint views) { return level == NOT_DRAWN ? 0u : bitCount(views) * tilesInView(made, level); }
+/// In all views that are kept.
+uint tilesOf(Impostors made, DrawnLevel d) { return d.level == NOT_DRAWN ? 0u : bitCount(d.views) * tilesInView(made, d.level); }
 
 /// The i-th view that is kept.
 uint keptView(uint views, uint i) {
@@ -26,11 +26,15 @@ DrawnTexel tileOfNumber(Impostors made, uint tile) {
     DrawnTexel found;
     found.instance = instanceOfItem(tile);
     Drawn d = drawn(found.instance);
-    uint i = tile - items(found.instance), ofLevel = tilesOfLevel(made, d.level, d.views);
-    found.fades = i >= ofLevel;
-    if (found.fades) i -= ofLevel;
-    uint level = found.fades ? d.before : d.level, across = tilesAcross(made, level), perView = tilesInView(made, level), inView = i % perView;
-    found.place = TexelPlace(level, keptView(d.views, i / perView), TILE * uvec2(inView % across, inView / across));
+    uint i = tile - items(found.instance), now = tilesOf(made, d.now);
+    found.fades = i >= now;
+    DrawnLevel part = d.now;
+    if (found.fades) {
+        part = d.before;
+        i -= now;
+    }
+    uint across = tilesAcross(made, part.level), perView = tilesInView(made, part.level), inView = i % perView;
+    found.place = TexelPlace(part.level, keptView(part.views, i / perView), TILE * uvec2(inView % across, inView / across));
     return found;
 }
 
