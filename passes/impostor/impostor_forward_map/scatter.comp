@@ -48,16 +48,18 @@ void draw(World w, Impostors made, uint number) {
     ImpostorTexel t = shapeAt(made, w.instances.at[x.instance].mesh, x.place.level, x.place.view, x.place.texel);
     Splat s;
     if (!splatOf(w, made, x, t, s)) return;
+    if (argument(0) == 0u && addTexels(0u, 1u) == 0xffffffffu) addTexels(1u, 1u);
+    vec2 reach = OVERLAP * (abs(s.a) + abs(s.b));
+    ivec2 middle = centerPixel(s), most = ivec2(params.footprint / 2);
+    ivec2 low = max(max(ivec2(ceil(s.center - reach)), middle - most), ivec2(0));
+    ivec2 high = min(min(ivec2(floor(s.center + reach)), middle + most), ivec2(frameSize()) - 1);
+    if (any(lessThan(high, low))) return;
     vec3 part = WHOLE;
     if (!params.blend) part = coveredPart(made, w.instances.at[x.instance].mesh, x.place, t.alpha, params.cutoff);
-    if (argument(0) == 0u && addTexels(0u, 1u) == 0xffffffffu) addTexels(1u, 1u);
-    ivec2 middle = centerPixel(s), reach = min(ivec2(params.footprint / 2), ivec2(ceil(OVERLAP * (abs(s.a) + abs(s.b)))));
-    for (int v = -reach.y; v <= reach.y; ++v) {
-        for (int u = -reach.x; u <= reach.x; ++u) {
-            ivec2 pixel = middle + ivec2(u, v);
-            bool isCenter = u == 0 && v == 0;
-            if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frameSize())))) continue;
-            if (covers(s, pixel, part) && isShownIn(pixel, x)) offer(pixel, number, nearness(s, t, pixel, isCenter));
+    for (int v = low.y; v <= high.y; ++v) {
+        for (int u = low.x; u <= high.x; ++u) {
+            ivec2 pixel = ivec2(u, v);
+            if (covers(s, pixel, part) && isShownIn(pixel, x)) offer(pixel, number, nearness(s, t, pixel, pixel == middle));
         }
     }
 }
