@@ -18,7 +18,7 @@ namespace lodestir::generate {
 
 namespace {
 
-constexpr int gutter = 6;          ///< texels around a chart; filled by its border's colours, so that filters find no other chart's
+constexpr int gutter = 6;          ///< least texels around a chart that are as its border is, so that filters find no other chart
 constexpr float steepest = 0.35f;  ///< cosine to its axis up to which a triangle may join its neighbours' chart
 constexpr int smallest = 40;       ///< triangles of a chart that is worth its gutter
 
@@ -190,7 +190,7 @@ Textures bake(const Mesh& charted, int texels, const std::function<Surface(const
     struct Texel {
         Surface surface;
         glm::vec3 normal{0, 0, 1};
-        int distance = -1;  ///< to the chart, texels; below 0: not painted
+        bool isPainted = false;
     };
     std::vector<Texel> canvas(size_t(texels) * size_t(texels));
     const auto at = [&](int x, int y) -> Texel& { return canvas[size_t(y) * size_t(texels) + size_t(x)]; };
@@ -209,7 +209,7 @@ Textures bake(const Mesh& charted, int texels, const std::function<Surface(const
                 Texel& texel = at(x, y);
                 const glm::vec2 g = glm::vec2(x, y) - t[0];
                 const float b = (g.x * f.y - g.y * f.x) / area, c = (e.x * g.y - e.y * g.x) / area, a = 1 - b - c;
-                if (texel.distance >= 0 || std::min({a, b, c}) < -1e-3f) continue;
+                if (texel.isPainted || std::min({a, b, c}) < -1e-3f) continue;
                 const auto mean = [&](auto member) { return a * glm::vec3(v[0]->*member) + b * glm::vec3(v[1]->*member) + c * glm::vec3(v[2]->*member); };
                 const glm::vec3 p = mean(&Vertex::position), n = glm::normalize(mean(&Vertex::normal));
                 const glm::vec3 along = mean(&Vertex::tangent), tangent = glm::normalize(along - n * glm::dot(n, along)),
@@ -217,20 +217,21 @@ Textures bake(const Mesh& charted, int texels, const std::function<Surface(const
                 texel.surface = surface(p, n);
                 const auto rise = [&](const glm::vec3& d) { return (surface(p + step * d, n).height - texel.surface.height) / step; };
                 texel.normal = glm::normalize(glm::vec3(-rise(tangent), -rise(up), 1));
-                texel.distance = 0;
+                texel.isPainted = true;
             }
     }
-    for (int ring = 0; ring < gutter; ++ring)
-        for (int y = 0; y < texels; ++y)
-            for (int x = 0; x < texels; ++x) {
-                if (at(x, y).distance >= 0) continue;
-                for (const glm::ivec2& d : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
-                    const glm::ivec2 q = glm::clamp(glm::ivec2(x, y) + d, 0, texels - 1);
-                    if (at(q.x, q.y).distance != ring) continue;
-                    at(x, y) = at(q.x, q.y), at(x, y).distance = ring + 1;
-                    break;
-                }
-            }
+    // What no chart covers is as the nearest one that grows into it: coarse mipmaps mix in all that lies around a chart.
+    std::vector<glm::ivec2> open;
+    for (int y = 0; y < texels; ++y)
+        for (int x = 0; x < texels; ++x)
+            if (at(x, y).isPainted) open.emplace_back(x, y);
+    for (size_t i = 0; i < open.size(); ++i)
+        for (const glm::ivec2& d : {glm::ivec2(1, 0), glm::ivec2(-1, 0), glm::ivec2(0, 1), glm::ivec2(0, -1)}) {
+            const glm::ivec2 q = glm::clamp(open[i] + d, 0, texels - 1);
+            if (at(q.x, q.y).isPainted) continue;
+            at(q.x, q.y) = at(open[i].x, open[i].y);
+            open.push_back(q);
+        }
 
     Textures textures{Picture(texels, texels, 3), Picture(texels, texels, 3), Picture(texels, texels, 3)};
     for (int y = 0; y < texels; ++y)
