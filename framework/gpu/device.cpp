@@ -7,6 +7,7 @@
 #include <framework/gpu/features.h>
 #include <framework/gpu/heap.h>
 #include <framework/gpu/memory.h>
+#include <framework/gpu/pipeline_cache.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -186,7 +187,7 @@ std::string whyDevice(const std::vector<DeviceFacts>& devices, const std::string
     return fmt::format("the first {} one of {} that have all that is needed", chosen.type, usable);
 }
 
-Device::Device(std::nullptr_t) : messages_(std::make_unique<Messages>()) {}
+Device::Device(std::nullptr_t) : pipelines_(std::make_unique<PipelineCache>()), messages_(std::make_unique<Messages>()) {}
 
 Device::Device(const DeviceOptions& options) : Device(nullptr) {
     const char* environment = std::getenv("LODESTIR_VALIDATION");
@@ -265,6 +266,7 @@ Device::Device(const DeviceOptions& options) : Device(nullptr) {
 
 Device::~Device() {
     if (device_) vkDeviceWaitIdle(device_);
+    pipelines_.reset();
     heap_.reset();
     if (allocator_) vmaDestroyAllocator(allocator_);
     if (device_) vkDestroyDevice(device_, nullptr);

@@ -17,6 +17,7 @@
 namespace lodestir::gpu {
 
 class Heap;
+class PipelineCache;
 
 /// One feature that the framework needs or can use, for `lodestir devices`.
 struct Feature {
@@ -79,6 +80,7 @@ public:
     VmaAllocator allocator() const { return allocator_; }
     /// Where all buffers are to lie; nullptr for devices that read by address.
     Heap* heap() const { return heap_.get(); }
+    PipelineCache& pipelines() const { return *pipelines_; }
     bool validating() const { return validating_; }
     /// Validation messages (warnings and errors) so far; each is also logged. Tests fail when it is not empty.
     const std::vector<std::string>& validationMessages() const;
@@ -105,6 +107,7 @@ private:
     std::uint32_t queueFamily_ = 0;
     VmaAllocator allocator_ = VK_NULL_HANDLE;
     std::unique_ptr<Heap> heap_;
+    std::unique_ptr<PipelineCache> pipelines_;
     bool validating_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT setName_ = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel_ = nullptr;

@@ -5,6 +5,7 @@
 #include <framework/core/files.h>
 #include <framework/core/is_file.h>
 #include <framework/core/tasks.h>
+#include <framework/gpu/pipeline_cache.h>
 
 #include <algorithm>
 #include <chrono>
@@ -62,11 +63,14 @@ private:
 
 }  // namespace
 
-void compileAhead(const gpu::Device& device, std::span<const KernelSource> sources, const std::function<void(std::size_t, gpu::Pipeline, double)>& made) {
+void compileAhead(const gpu::Device& device, std::span<const KernelSource> sources,
+                  const std::function<void(std::size_t, std::shared_ptr<const gpu::Pipeline>, double)>& made) {
     const PipelineMaker maker(device);
     const auto make = [&](std::size_t i) {
         const auto start = std::chrono::steady_clock::now();
-        gpu::Pipeline pipeline = maker.make(sources[i]);
+        const Hash hash = sources[i].hash();
+        std::shared_ptr<const gpu::Pipeline> pipeline = device.pipelines().find(hash);
+        if (!pipeline) pipeline = device.pipelines().keep(hash, maker.make(sources[i]));
         made(i, std::move(pipeline), std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     };
 
@@ -75,7 +79,7 @@ void compileAhead(const gpu::Device& device, std::span<const KernelSource> sourc
     const bool spreads = device.facts().isLavapipe && hasDriverCache();
     for (std::size_t i = 0; i < sources.size(); ++i) {
         marks.push_back(spreads ? markOf(device, sources[i]) : Path());
-        if (spreads && !isFile(marks[i])) cold.push_back(i);
+        if (spreads && !isFile(marks[i]) && !device.pipelines().find(sources[i].hash())) cold.push_back(i);
     }
     std::ranges::stable_sort(cold, std::ranges::greater(), [&](std::size_t i) { return sources[i].spirv.words.size(); });
     std::vector<bool> done(sources.size());

@@ -62,7 +62,7 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
     keys.resize(good);
     std::size_t done = 0;
     progress(done, keys.size());
-    compileAhead(device_, sources, [&](std::size_t i, gpu::Pipeline pipeline, double milliseconds) {
+    compileAhead(device_, sources, [&](std::size_t i, std::shared_ptr<const gpu::Pipeline> pipeline, double milliseconds) {
         kernels_.insert_or_assign(keys[i], finish(keys[i], sources[i], std::move(pipeline), milliseconds));
         progress(++done, keys.size());
     });
@@ -71,13 +71,13 @@ void Kernels::prepare(const std::vector<int>& nodes, const std::function<void(st
 Kernel Kernels::make(int node, std::string_view shader) {
     const KernelSource source = kernelSource(device_, graph_, plan_, scene_, node, shader, options_);
     Kernel kernel;
-    compileAhead(device_, std::span(&source, 1), [&](std::size_t, gpu::Pipeline pipeline, double milliseconds) {
+    compileAhead(device_, std::span(&source, 1), [&](std::size_t, std::shared_ptr<const gpu::Pipeline> pipeline, double milliseconds) {
         kernel = finish({node, std::string(shader)}, source, std::move(pipeline), milliseconds);
     });
     return kernel;
 }
 
-Kernel Kernels::finish(const Key& key, const KernelSource& source, gpu::Pipeline pipeline, double milliseconds) {
+Kernel Kernels::finish(const Key& key, const KernelSource& source, std::shared_ptr<const gpu::Pipeline> pipeline, double milliseconds) {
     reports_.push_back({graph_.nodes[std::size_t(key.first)].name, key.second, source.spirv.cached, source.milliseconds, milliseconds});
     return {std::move(pipeline), source.traces, source.readsTexels, source.spirv.files, source.probes};
 }

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,7 +15,7 @@
 namespace lodestir {
 
 struct Kernel {
-    gpu::Pipeline pipeline;
+    std::shared_ptr<const gpu::Pipeline> pipeline;
     bool traces = false;        ///< includes trace/driver.glsl
     bool readsTexels = false;   ///< right only while all memory lies in the device's heap
     std::vector<Path> files;    ///< include closure, for watching
@@ -38,7 +39,7 @@ public:
 private:
     using Key = std::pair<int, std::string>;  ///< node, shader
     Kernel make(int node, std::string_view shader);
-    Kernel finish(const Key& key, const KernelSource& source, gpu::Pipeline pipeline, double milliseconds);
+    Kernel finish(const Key& key, const KernelSource& source, std::shared_ptr<const gpu::Pipeline> pipeline, double milliseconds);
 
     const gpu::Device& device_;
     const Graph& graph_;

@@ -141,7 +141,7 @@ private:
             groups = {std::uint32_t(workerCount()), 1};
         }
         const std::uint32_t from = s_.slices_.cuts() ? s_.commands_.timestamp() : 0;
-        s_.commands_.dispatch(kernel.pipeline, std::as_bytes(std::span(&push, 1)), groups.x, groups.y);
+        s_.commands_.dispatch(*kernel.pipeline, std::as_bytes(std::span(&push, 1)), groups.x, groups.y);
         if (s_.slices_.cuts()) work_.pieces.push_back({key, rows, from, s_.commands_.timestamp()});
     }
     std::shared_ptr<const gpu::Buffer> newBuffer(std::size_t bytes, const std::string& name) const {

@@ -78,7 +78,8 @@ int firstAlike(const Study& study, const Scene& scene, int frame) {
 
 }  // namespace
 
-Stage::Stage(const Study& study, const RendererOptions& options) : study_(study), renderer_(options) {}
+Stage::Stage(const Study& study, const RendererOptions& options, std::shared_ptr<const gpu::Device> device)
+    : study_(study), renderer_(options, std::move(device)) {}
 
 Stage::~Stage() = default;
 

@@ -39,7 +39,8 @@ struct ReferenceHalf {
 
 class Stage {
 public:
-    Stage(const Study& study, const RendererOptions& options);
+    /// Without a device it opens one of its own.
+    Stage(const Study& study, const RendererOptions& options, std::shared_ptr<const gpu::Device> device = {});
     ~Stage();
 
     /// Builds every graph of the study for every scene, without a device. Error with all that is wrong.

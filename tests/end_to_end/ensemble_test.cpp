@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The judge of bias on a device: path tracing is found unbiased against itself, and what is wrong on purpose is found out.
 #include "program.h"
+#include "shared_device.h"
 
 #include <framework/study/ensemble/ensemble.h>
 
@@ -21,7 +22,8 @@ EnsembleSetup cornell() {
             .frame = 3,
             .runs = 64,
             .reference = pathTracer({{"trace.bounces", Json(3)}}),
-            .referenceSamples = 2048};
+            .referenceSamples = 2048,
+            .device = sharedDevice()};
 }
 
 TEST(EnsembleJudge, KnowsRightFromWrong) {

@@ -7,6 +7,7 @@
 // nearly always; a planted one is.
 #include "model.h"
 #include "program.h"
+#include "render.h"
 #include "statistics.h"
 
 namespace lodestir::test {
@@ -16,8 +17,8 @@ constexpr int frameCount = 16;
 
 class Estimators : public ProgramTest {
 protected:
-    std::vector<ImageData> frames(const std::string& name, const std::string& out, const OrderedJson& parameters, const std::string& seed) {
-        return render(out, writeGraph(folder, name, 64, 64, parameters), "trace", frameCount, {"--seed", seed});
+    std::vector<ImageData> frames(const std::string& name, const OrderedJson& parameters, std::uint32_t seed) {
+        return render(writeGraph(folder, name, 64, 64, parameters), "trace", frameCount, {.seed = seed});
     }
 
     void expectEqual(const std::vector<ImageData>& a, const std::vector<ImageData>& b, const std::string& what) {
@@ -44,13 +45,13 @@ const View inside{.position = {3.3, 1.9, 3.8}, .target = {1.4, 1.0, 1.2}, .fovy 
 TEST_F(Estimators, AreaLight) {
     writeModel(folder, "room", room(true));
     writeScene(folder, "room", inside, constantEnvironment(Point(0)));
-    const auto both = frames("room", "both", {{"spp", 16}, {"bounces", 5}}, "1");
-    const auto light = frames("room", "light", {{"spp", 16}, {"bounces", 5}, {"technique", "light"}}, "2");
-    const auto bsdf = frames("room", "bsdf", {{"spp", 64}, {"bounces", 5}, {"technique", "bsdf"}}, "3");
+    const auto both = frames("room", {{"spp", 16}, {"bounces", 5}}, 1);
+    const auto light = frames("room", {{"spp", 16}, {"bounces", 5}, {"technique", "light"}}, 2);
+    const auto bsdf = frames("room", {{"spp", 64}, {"bounces", 5}, {"technique", "bsdf"}}, 3);
     expectEqual(light, both, "light sampling against both");
     expectEqual(bsdf, both, "BSDF sampling against both");
-    expectEqual(frames("room", "steady", {{"spp", 16}, {"bounces", 5}, {"roulette", false}}, "4"), both, "without roulette against with");
-    expectEqual(frames("room", "hard", {{"spp", 24}, {"bounces", 5}, {"rouletteStart", 1}}, "5"), both, "early roulette against late");
+    expectEqual(frames("room", {{"spp", 16}, {"bounces", 5}, {"roulette", false}}, 4), both, "without roulette against with");
+    expectEqual(frames("room", {{"spp", 24}, {"bounces", 5}, {"rouletteStart", 1}}, 5), both, "early roulette against late");
 }
 
 /// Blocks of different gloss on a floor under an uneven map: a warm bright patch above, a blue rim.
@@ -73,9 +74,9 @@ TEST_F(Estimators, Environment) {
     writeModel(folder, "blocks", quads);
     writeScene(folder, "blocks", {.position = {1.5, 2.6, 4.5}, .target = {-0.1, 0.4, 0}, .fovy = 40},
                {{"type", "map"}, {"file", "map.exr"}, {"rotationDegrees", 40}, {"strength", 1.0}});
-    const auto both = frames("blocks", "both", {{"spp", 16}, {"bounces", 3}}, "1");
-    expectEqual(frames("blocks", "light", {{"spp", 32}, {"bounces", 3}, {"technique", "light"}}, "2"), both, "light sampling against both");
-    expectEqual(frames("blocks", "bsdf", {{"spp", 32}, {"bounces", 3}, {"technique", "bsdf"}}, "3"), both, "BSDF sampling against both");
+    const auto both = frames("blocks", {{"spp", 16}, {"bounces", 3}}, 1);
+    expectEqual(frames("blocks", {{"spp", 32}, {"bounces", 3}, {"technique", "light"}}, 2), both, "light sampling against both");
+    expectEqual(frames("blocks", {{"spp", 32}, {"bounces", 3}, {"technique", "bsdf"}}, 3), both, "BSDF sampling against both");
 }
 
 // Nothing can hit a point; the choice among several lights must not depend on the estimator.
@@ -90,10 +91,10 @@ TEST_F(Estimators, PointLight) {
                                         {"intensity", 4.0},
                                         {"innerConeDegrees", 10},
                                         {"outerConeDegrees", 30}}}));
-    const auto both = frames("room", "both", {{"spp", 24}, {"bounces", 3}}, "1");
-    expectEqual(frames("room", "light", {{"spp", 24}, {"bounces", 3}, {"technique", "light"}}, "2"), both, "light sampling against both");
+    const auto both = frames("room", {{"spp", 24}, {"bounces", 3}}, 1);
+    expectEqual(frames("room", {{"spp", 24}, {"bounces", 3}, {"technique", "light"}}, 2), both, "light sampling against both");
     // Lights without extent are sampled all the same; only the lamp is left to chance.
-    expectEqual(frames("room", "bsdf", {{"spp", 48}, {"bounces", 3}, {"technique", "bsdf"}}, "3"), both, "BSDF sampling against both");
+    expectEqual(frames("room", {{"spp", 48}, {"bounces", 3}, {"technique", "bsdf"}}, 3), both, "BSDF sampling against both");
 }
 
 // An unlit ceiling sends out what a lamp of that radiance would, but no light sample looks for it: all estimators have its light from the BSDF.
@@ -106,9 +107,9 @@ TEST_F(Estimators, UnlitSurfaceIsALampThatNobodySamples) {
         writeModel(folder, name, quads);
         writeScene(folder, name, inside, constantEnvironment(Point(0)));
     }
-    const auto expected = frames("lamp", "lamp", {{"spp", 16}, {"bounces", 4}}, "1");
-    for (const auto& [estimator, seed] : {std::pair("both", "2"), std::pair("light", "3"), std::pair("bsdf", "4")})
-        expectEqual(frames("unlit", estimator, {{"spp", 32}, {"bounces", 4}, {"technique", estimator}}, seed), expected,
+    const auto expected = frames("lamp", {{"spp", 16}, {"bounces", 4}}, 1);
+    for (const auto& [estimator, seed] : {std::pair("both", 2u), std::pair("light", 3u), std::pair("bsdf", 4u)})
+        expectEqual(frames("unlit", {{"spp", 32}, {"bounces", 4}, {"technique", estimator}}, seed), expected,
                     std::string("unlit, ") + estimator);
     const Output scene = lodestir({"scene", (folder / "unlit.json").string(), "--json"});
     EXPECT_EQ(OrderedJson::parse(scene.out)["triangles"]["emissive"], 0) << "none is a light";

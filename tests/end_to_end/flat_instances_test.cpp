@@ -2,6 +2,7 @@
 // Objects that their nodes squeeze flat are seen, shine and move as sheets do; those squeezed to a line or a point are not there.
 #include "model.h"
 #include "program.h"
+#include "render.h"
 
 namespace lodestir::test {
 namespace {
@@ -23,8 +24,8 @@ protected:
         gltf.update(more);
         writeFile(folder / (name + ".gltf"), gltf.dump());
     }
-    std::vector<ImageData> trace(const std::string& name, int frames, const OrderedJson& parameters, const Arguments& more = {}) {
-        return render(name + ".out", writeGraph(folder, name, 17, 17, parameters), "trace", frames, more);
+    std::vector<ImageData> trace(const std::string& name, int frames, const OrderedJson& parameters, const std::string& rays = {}) {
+        return render(writeGraph(folder, name, 17, 17, parameters), "trace", frames, {}, rays);
     }
     const std::vector<Quad> cube = box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}, {.color = Point(0), .emission = Point(0.5)});
     const OrderedJson exact{{"spp", 1}, {"bounces", 0}, {"film", "centre"}};
@@ -46,7 +47,7 @@ TEST_F(FlatInstances, AreSeenFromBothSides) {
             writeScene(folder, "flat", {{0.2, 0.3, side * 6}, {0, 0, 0}, {0, 1, 0}, 60}, constantEnvironment(Point(0)));
             for (const char* rays : {"packet", "lane", "ray_query"}) {
                 SCOPED_TRACE(fmt::format("hanging {}, side {}, {}", i, side, rays));
-                const std::vector<ImageData> images = trace("flat", 1, exact, {"--rays", rays});
+                const std::vector<ImageData> images = trace("flat", 1, exact, rays);
                 ASSERT_EQ(images.size(), 1u);
                 EXPECT_EQ(images[0].at(8, 8, 0), 0.5f);
                 for (const int x : {0, 16})
@@ -63,7 +64,7 @@ TEST_F(FlatInstances, WithoutAreaAreNotThere) {
         hang("gone", {{{"rotation", {0.2, 0.4, 0.4, 0.8}}, {"scale", scale}}, {{"rotation", {0.4, 0.2, 0.4, 0.8}}}});
         writeScene(folder, "gone", {{0.2, 0.3, 6}}, constantEnvironment(Point(0.25)));
         for (const char* rays : {"packet", "lane", "ray_query"}) {
-            const std::vector<ImageData> images = trace("gone", 1, {{"spp", 4}, {"bounces", 2}}, {"--rays", rays});
+            const std::vector<ImageData> images = trace("gone", 1, {{"spp", 4}, {"bounces", 2}}, rays);
             ASSERT_EQ(images.size(), 1u);
             for (const float v : images[0].values) EXPECT_TRUE(v == 0.25f || v == 1) << v;
         }
@@ -114,7 +115,7 @@ TEST_F(FlatInstances, CardsTurnOver) {
         writeFile(folder / "card.gltf", gltf.dump());
         writeScene(folder, "card", {{0.2, 0.3, 6}}, constantEnvironment(Point(0)));
         for (const char* rays : {"packet", "ray_query"}) {
-            const std::vector<ImageData> images = trace("card", 10, exact, {"--rays", rays});
+            const std::vector<ImageData> images = trace("card", 10, exact, rays);
             ASSERT_EQ(images.size(), 10u);
             for (int frame = 0; frame < 10; ++frame) {
                 SCOPED_TRACE(fmt::format("{}, frame {}, {}", sheet ? "sheet" : "cube", frame, rays));
@@ -125,8 +126,8 @@ TEST_F(FlatInstances, CardsTurnOver) {
             }
         }
         for (const char* graph : {"restir_pt.json", "restir_lod.json"}) {
-            const std::vector<ImageData> images = render("card.reuse", sourceFolder / "graphs" / graph, "shade", 8,
-                                                         {"--scene", (folder / "card.json").string(), "--size", "32x18"});
+            const std::vector<ImageData> images =
+                render(sourceFolder / "graphs" / graph, "shade", 8, {.scene = folder / "card.json", .size = glm::uvec2(32, 18)});
             ASSERT_EQ(images.size(), 8u);
             for (const ImageData& image : images) EXPECT_TRUE(allFinite(image)) << graph;
             EXPECT_GT(meanOf(images[7]), 0.001) << graph;

@@ -2,6 +2,7 @@
 // A graph in this process, frame by frame, with ports to be read.
 #pragma once
 #include "../temporary_folder.h"
+#include "shared_device.h"
 #include "source_folder.h"
 
 #include <framework/app/session.h>
@@ -33,7 +34,7 @@ public:
                                    {"passes", passes},
                                    {"show", options.dumps.at(0)}};
         writeFile(options.graph, graph.dump(2));
-        session_ = std::make_unique<Session>(options);
+        session_ = std::make_unique<Session>(options, SessionParts{.device = sharedDevice()});
     }
     ~Frames() { EXPECT_EQ(session_->device().validationMessages(), std::vector<std::string>{}); }
 

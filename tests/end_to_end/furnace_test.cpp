@@ -3,6 +3,7 @@
 // scatters more than once between their microfacets, which the model leaves out; how much that is comes from a solution of our own.
 #include "model.h"
 #include "program.h"
+#include "render.h"
 #include "statistics.h"
 
 #include <numbers>
@@ -22,7 +23,7 @@ protected:
         writeModel(folder, name, box(Point(-1), Point(1), paint));
         writeScene(folder, name, view, constantEnvironment(Point(1)));
         parameters["roulette"] = false;
-        return render(name + "_out", writeGraph(folder, name, size, size, parameters), "trace", count, {});
+        return render(writeGraph(folder, name, size, size, parameters), "trace", count);
     }
     /// Every pixel, without noise.
     void expectInvisible(const std::vector<ImageData>& images, float tolerance) {

@@ -3,6 +3,7 @@
 #include <framework/core/error.h>
 #include <framework/gpu/commands.h>
 #include <framework/gpu/heap.h>
+#include <framework/gpu/pipeline_cache.h>
 #include <framework/graph/kernel_source.h>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,22 @@ void main() {
     atomicMin(push.result.least, (uint64_t(~i) << 32) | i);
 }
 )";
+
+// If this fails, graphs that follow one another compile again what they share, or hold all that was ever compiled.
+TEST_F(GpuTest, PipelinesAskedForLateAreKept) {
+    const Spirv spirv = compile("#version 460\nvoid main() {}\n");
+    const auto hash = [](int i) { return Hash().addValue(i); };
+    PipelineCache& cache = device_->pipelines();
+    EXPECT_EQ(cache.find(hash(0)), nullptr);
+    std::vector<std::shared_ptr<const Pipeline>> made;
+    for (int i = 0; i < 256; ++i) made.push_back(cache.keep(hash(i), Pipeline(*device_, spirv, {}, 0, "kept")));
+    for (int i = 0; i < 256; ++i) EXPECT_EQ(cache.find(hash(i)), made[std::size_t(i)]) << i;
+    EXPECT_EQ(cache.find(hash(0)), made[0]);
+    cache.keep(hash(256), Pipeline(*device_, spirv, {}, 0, "one more"));
+    EXPECT_EQ(cache.find(hash(0)), made[0]) << "it was asked for just now";
+    EXPECT_EQ(cache.find(hash(1)), nullptr) << "nobody has asked for it for longest";
+    EXPECT_NE(cache.find(hash(256)), nullptr);
+}
 
 TEST_F(GpuTest, ShadersReachMemoryByAddress) {
     constexpr std::uint32_t count = 100'000;

@@ -143,7 +143,8 @@ TEST(ImpostorPathsUnbiased, ReuseHasTheMeanOfPathTracing) {
                          .frame = 3,
                          .runs = 64,
                          .reference = {.graph = graph, .variant = "path traced", .set = set, .port = {}, .where = {}},
-                         .referenceSamples = 2048});
+                         .referenceSamples = 2048,
+                         .device = sharedDevice()});
     std::vector<Setting> reuse = set;
     reuse.push_back({"spatial.radius", Json(5)});
     const EnsembleResult result = judge.judge({.graph = graph, .variant = {}, .set = reuse, .port = {}, .where = {}});

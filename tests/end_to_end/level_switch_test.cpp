@@ -309,7 +309,8 @@ TEST_P(Switches, KeepTheEnergy) {
                          .frame = 3,
                          .runs = 32,
                          .reference = graph("path_tracer.json", "no accumulation", {}),
-                         .referenceSamples = 1024});
+                         .referenceSamples = 1024,
+                         .device = sharedDevice()});
     const auto keeps = [&](const StudyGraph& technique) {
         const EnsembleResult result = judge.judge(technique);
         std::printf("%s, %s: %+.2f %% +- %.2f %%\n", name.c_str(), technique.graph.stem().c_str(),

@@ -135,7 +135,8 @@ protected:
                 .frame = frame,
                 .runs = runs,
                 .reference = studyGraph(graphs / "path_tracer.json", "no accumulation", {{"trace.bounces", Json(8)}}),
-                .referenceSamples = 1024};
+                .referenceSamples = 1024,
+                .device = sharedDevice()};
     }
     EnsembleResult judge(const char* name, const BlockMeans& runs, const BlockMeans& expected) {
         return judgeByAnswer(name, runs, expected, 0.01);

@@ -2,6 +2,7 @@
 // Orthographic cameras show things as wide at any distance, and what is known of their pixels agrees.
 #include "model.h"
 #include "program.h"
+#include "render.h"
 
 namespace lodestir::test {
 namespace {
@@ -61,8 +62,7 @@ TEST_F(Orthographic, LightsLikeAnyOther) {
                              {"models", {{"floor", {{"file", "floor.gltf"}}}}},
                              {"environment", constantEnvironment(Point(2))},
                              {"camera", {{"position", {0, 5, 5 * tilt}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"orthographic", 2}}}});
-        const std::vector<ImageData> images =
-            render("floor", writeGraph(folder, "floor", 16, 16, {{"spp", 256}, {"bounces", 1}}), "trace", 1, {});
+        const std::vector<ImageData> images = render(writeGraph(folder, "floor", 16, 16, {{"spp", 256}, {"bounces", 1}}), "trace", 1);
         ASSERT_EQ(images.size(), 1u);
         EXPECT_NEAR(meanOf(images[0]), 1, 0.002);
     }

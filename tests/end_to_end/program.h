@@ -77,15 +77,6 @@ protected:
         EXPECT_EQ(output.err.find("validation"), std::string::npos) << output.err;
         return folder / out;
     }
-    /// The same, returning the images `show` of all its frames.
-    std::vector<ImageData> render(const std::string& out, const Path& graph, const std::string& show, int frames, Arguments arguments) {
-        arguments.insert(arguments.end(), {"--show", show, "--frames", std::to_string(frames)});
-        const Path results = run(out, graph, arguments);
-        std::vector<ImageData> images;
-        for (int frame = 0; frame < frames && !HasFailure(); ++frame)
-            images.push_back(readExr(results / (show + "." + std::to_string(frame) + ".exr")));
-        return images;
-    }
     /// Names in a folder; none where there is no such folder.
     static std::set<std::string> filesOf(const Path& path) {
         std::set<std::string> names;

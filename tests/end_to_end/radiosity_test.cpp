@@ -3,6 +3,7 @@
 // a plain Monte Carlo solution in double precision on analytic parallelograms.
 #include "model.h"
 #include "program.h"
+#include "render.h"
 #include "statistics.h"
 
 #include <numbers>
@@ -125,16 +126,13 @@ TEST_F(Radiosity, UniformEnclosureHasItsClosedForm) {
         const Point expected = glowAfter(bounces);
         // BSDF sampling meets the same radiance whatever it hits: no noise but rounding. Roulette would bring some.
         const auto exact =
-            render("exact",
-                   writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"technique", "bsdf"}, {"roulette", false}}),
-                   "trace", 1, {});
+            render(writeGraph(folder, "enclosure", 32, 32, {{"spp", 1}, {"bounces", bounces}, {"technique", "bsdf"}, {"roulette", false}}), "trace", 1);
         ASSERT_EQ(exact.size(), 1u);
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 32; ++x)
                 for (int c = 0; c < 3; ++c)
                     ASSERT_NEAR(exact[0].at(x, y, c), expected[c], 2e-4 * expected[c]) << bounces << " bounces, pixel " << x << ", " << y;
-        const auto both =
-            render("both", writeGraph(folder, "enclosure", 32, 32, {{"spp", 16}, {"bounces", bounces}}), "trace", 8, {});
+        const auto both = render(writeGraph(folder, "enclosure", 32, 32, {{"spp", 16}, {"bounces", bounces}}), "trace", 8);
         std::vector<double> energies;
         for (const ImageData& image : both) energies.push_back(meanOf(image));
         const Mean mean = lodestir::test::meanOf(energies);
@@ -156,9 +154,7 @@ TEST_F(Radiosity, PlaneUnderPunctualLightsHasItsClosedForm) {
         {{{"type", "directional"}, {"direction", toJson(downwards)}, {"intensity", 2.0}, {"color", toJson(color)}}, false}};
     for (const auto& [light, isPoint] : lights) {
         writeScene(folder, "plane", view, constantEnvironment(Point(0)), OrderedJson::array({light}));
-        const auto images =
-            render(isPoint ? "point" : "directional",
-                   writeGraph(folder, "plane", size, size, {{"spp", 1}, {"bounces", 1}, {"film", "centre"}}), "trace", 1, {});
+        const auto images = render(writeGraph(folder, "plane", size, size, {{"spp", 1}, {"bounces", 1}, {"film", "centre"}}), "trace", 1);
         ASSERT_EQ(images.size(), 1u);
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
@@ -209,8 +205,7 @@ TEST_F(Radiosity, RoomWithABlockMatchesAnIndependentSolution) {
     }
     writeModel(folder, "room", quads);
     writeScene(folder, "room", view, constantEnvironment(Point(0)));
-    const auto actual =
-        render("out", writeGraph(folder, "room", size, size, {{"spp", 24}, {"bounces", bounces}}), "trace", frames, {});
+    const auto actual = render(writeGraph(folder, "room", size, size, {{"spp", 24}, {"bounces", bounces}}), "trace", frames);
     ASSERT_EQ(actual.size(), std::size_t(frames));
 
     const Comparison comparison = compareFrames(actual, expected);

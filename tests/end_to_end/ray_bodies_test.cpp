@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Images do not depend on how rays are traced.
 #include "program.h"
+#include "render.h"
 #include "statistics.h"
 
 #include <framework/graph/runner.h>
@@ -47,8 +48,8 @@ protected:
     }
     static constexpr int lastFrame = 3;
     std::vector<ImageData> frames(const std::string& body, const std::string& scene) {
-        return render(body + "_frames", sourceFolder / "graphs/path_tracer.json", "trace", 8,
-                      {"--scene", (sourceFolder / "scenes" / scene).string(), "--size", "64x64", "--set", "trace.spp=16", "--rays", body});
+        return render(sourceFolder / "graphs/path_tracer.json", "trace", 8,
+                      {.scene = sourceFolder / "scenes" / scene, .size = glm::uvec2(64, 64), .set = {{"trace.spp", Json(16)}}}, body);
     }
 };
 

@@ -2,6 +2,7 @@
 // Rays that leave surfaces: small things on large ground keep their shadows, and nothing shades itself, at any size, place and transform.
 #include "model.h"
 #include "program.h"
+#include "render.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -19,7 +20,7 @@ protected:
         writeScene(folder, name, view, constantEnvironment(Point(0)),
                    OrderedJson::array({OrderedJson{{"type", "directional"}, {"direction", toJson(sun)}, {"intensity", 1}}}));
         const Path graph = writeGraph(folder, name, width, height, {{"spp", 1}, {"bounces", 1}, {"film", "centre"}});
-        const std::vector<ImageData> images = ProgramTest::render(name + ".out", graph, "trace", 1, {});
+        const std::vector<ImageData> images = test::render(graph, "trace", 1);
         return images.empty() ? ImageData{} : images[0];
     }
 };
@@ -141,7 +142,7 @@ TEST_F(RayOffsets, ShadesCloseToLampsHold) {
                 writeScene(folder, "lamp", {{0, 0.5 * away, 0}, {0, 0, 0}, {0, 0, -1}, 40}, constantEnvironment(Point(0)), lights);
                 const Path graph =
                     writeGraph(folder, "lamp", 16, 16, {{"spp", 16}, {"bounces", 1}, {"film", "centre"}, {"technique", "light"}});
-                const std::vector<ImageData> images = ProgramTest::render("lamp.out", graph, "trace", 1, {});
+                const std::vector<ImageData> images = test::render(graph, "trace", 1);
                 ASSERT_EQ(images.size(), 1u);
                 for (int py = 0; py < 16; ++py) {
                     for (int px = 0; px < 16; ++px) {

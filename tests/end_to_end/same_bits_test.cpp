@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The same seed on the same device gives the same image, bit for bit; another seed, another one.
 #include "program.h"
+#include "shared_device.h"
+
+#include <framework/app/session.h>
 
 namespace lodestir::test {
 namespace {
@@ -54,28 +57,36 @@ TEST_F(SameBits, WithABarrierBeforeEveryPass) {
 
 // A port made in the memory of another, or not at all, must not show in what is made of it.
 TEST_F(SameBits, WhateverSharesMemory) {
-    for (const std::string graph : {"restir_pt_enhanced.json", "restir_lod.json"}) {
-        const auto last = [&](const std::string& out, const Arguments& more) {
-            Arguments arguments{"--scene", (sourceFolder / "scenes/ensemble_moving.json").string(), "--size", "48x40", "--frames", "4"};
-            arguments.insert(arguments.end(), more.begin(), more.end());
-            return readText(run(out, sourceFolder / "graphs" / graph, arguments) / "display.3.exr");
+    for (const char* graph : {"restir_pt_enhanced.json", "restir_lod.json"}) {
+        const auto last = [&](bool share, std::vector<std::string> dumps) {
+            Session session({.graph = sourceFolder / "graphs" / graph,
+                             .changes = {.scene = sourceFolder / "scenes/ensemble_moving.json", .size = glm::uvec2(48, 40)},
+                             .dumps = std::move(dumps),
+                             .shareMemory = share},
+                            {.device = sharedDevice()});
+            for (int frame = 0; frame < 4; ++frame) session.runner().run();
+            return session.runner().readImage(session.graph().show).values;
         };
-        const std::string bare = last("bare", {});
-        EXPECT_TRUE(bare == last("shared", {"--share-memory"})) << graph;
-        EXPECT_TRUE(bare == last("dumped", {"--dump", "hits.motion", "--dump", "hits.depth", "--dump", "initial.paths", "--dump", "temporal.paths", "--dump",
-                                            "temporal.color", "--dump", "shade.color"}))
-            << graph;
+        const std::vector<float> bare = last(false, {});
+        EXPECT_TRUE(bare == last(true, {})) << graph;
+        EXPECT_TRUE(bare == last(false, {"hits.motion", "hits.depth", "initial.paths", "temporal.paths", "temporal.color", "shade.color"})) << graph;
     }
+    EXPECT_EQ(sharedDevice()->validationMessages(), std::vector<std::string>{});
 }
 
 // With two rounds what is reserved for one of them comes and goes.
 TEST_F(SameBits, ReservedMemoryFollowsParameters) {
-    const auto paths = [&](const std::string& out, const Arguments& more) {
-        Arguments arguments{"--size", "48x40", "--frames", "2", "--set", "spatial.rounds=2", "--dump", "spatial.paths"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return readText(run(out, sourceFolder / "graphs/restir_pt_enhanced.json", arguments) / "spatial.paths.reservoirs.1.npy");
+    const auto paths = [](bool listed) {
+        Session session({.graph = sourceFolder / "graphs/restir_pt_enhanced.json",
+                         .changes = {.size = glm::uvec2(48, 40), .set = {{"spatial.rounds", Json(2)}, {"spatial.compaction", Json(listed)}}},
+                         .dumps = {"spatial.paths"},
+                         .checkBounds = listed},
+                        {.device = sharedDevice()});
+        for (int frame = 0; frame < 2; ++frame) session.runner().run();
+        return session.runner().readBytes(findSource(session.graph(), "spatial.paths.reservoirs"));
     };
-    EXPECT_TRUE(paths("plain", {}) == paths("listed", {"--set", "spatial.compaction=true", "--check-bounds"}));
+    EXPECT_TRUE(paths(false) == paths(true));
+    EXPECT_EQ(sharedDevice()->validationMessages(), std::vector<std::string>{});
 }
 
 }  // namespace

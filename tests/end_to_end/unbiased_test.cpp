@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reuse against path tracing on scenes that each stress one mechanism: short runs with fixed seeds, to one percent of the energy. The studies
-// of the same names go to 0.3 %.
+// of the same names go to 0.3 %. By default each reuse is judged where nothing moves, where all does (with moving_furnace_test), and through a lens;
+// the suites Long add the other pairs.
 #include "frames.h"
 #include "model.h"
 #include "program.h"
@@ -16,6 +17,7 @@ struct Case {
     int runs;
     const char* graph = "restir_pt.json";
     std::optional<std::string> variant = {};
+    glm::uvec2 size{32, 18};  ///< larger where the mean of a small frame is noisy: neighbours share paths, and more pixels share fewer
 
     bool paired() const { return variant == std::string("paired") || graph == std::string("restir_pt_enhanced.json"); }
     const char* radius() const { return paired() ? "pairing.radius" : "spatial.radius"; }
@@ -28,14 +30,15 @@ StudyGraph graph(const char* file, const char* variant, std::vector<Setting> set
 }
 
 /// Judges a technique on a scene by `runs` fresh starts and path tracing.
-void expectUnbiased(const std::string& scene, int runs, const StudyGraph& technique, const std::string& name) {
+void expectUnbiased(const std::string& scene, int runs, const StudyGraph& technique, const std::string& name, glm::uvec2 size = {32, 18}) {
     EnsembleJudge judge({.scene = sourceFolder / "scenes" / (scene + ".json"),
-                         .size = {32, 18},
+                         .size = size,
                          .warmup = 3,
                          .frame = 3,
                          .runs = runs,
                          .reference = graph("path_tracer.json", "no accumulation", {}),
-                         .referenceSamples = 2048});
+                         .referenceSamples = 2048,
+                         .device = sharedDevice()});
     const EnsembleResult reuse = judge.judge(technique);
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
     EXPECT_LE(reuse.halfWidth, 0.01);
@@ -52,7 +55,7 @@ TEST_P(Unbiased, ReuseHasTheMeanOfPathTracing) {
                     .set = {{"initial.candidates", Json(c.candidates)}, {c.radius(), Json(5)}},
                     .port = {},
                     .where = {}},
-                   c.scene);
+                   c.scene, c.size);
 }
 
 // Light points behind panes that move: what is reused has no part in what a pane takes, which the pixel's own shadow ray finds.
@@ -63,7 +66,8 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
                          .frame = 3,
                          .runs = 64,
                          .reference = graph("path_tracer.json", "no accumulation", {{"trace.bounces", Json(1)}, {"trace.film", Json("centre")}}),
-                         .referenceSamples = 2048});
+                         .referenceSamples = 2048,
+                         .device = sharedDevice()});
     const EnsembleResult reuse = judge.judge(
         {.graph = sourceFolder / "passes/restir/restir_di/restir_di.json", .variant = {}, .set = {{"direct.radius", Json(5)}}, .port = {}, .where = {}});
     EXPECT_EQ(reuse.verdict, Verdict::unbiased) << reuse.reason;
@@ -74,24 +78,33 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
                                          Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
-                                         Case{"ensemble_moving", 8, 960}, Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96},
+                                         Case{"ensemble_moving", 8, 128, "restir_pt.json", {}, {64, 36}}, Case{"ensemble_panes", 4, 96},
+                                         Case{"ensemble_lens", 8, 96},
                                          Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
                          [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
 
+std::string pairedName(const testing::TestParamInfo<Case>& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); }
+
 // Partners that share their shifts, alone and with everything else of ReSTIR PT Enhanced: footprints, lights of tiles, one place inside all pixels.
 INSTANTIATE_TEST_SUITE_P(Paired, Unbiased,
-                         testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"}, Case{"ensemble_glass", 4, 512, "restir_pt.json", "paired"},
-                                         Case{"ensemble_lights", 4, 192, "restir_pt_enhanced.json"}, Case{"ensemble_lens", 8, 448, "restir_pt_enhanced.json"},
+                         testing::Values(Case{"ensemble_glossy", 4, 96, "restir_pt.json", "paired"},
+                                         Case{"ensemble_lights", 4, 192, "restir_pt_enhanced.json"},
+                                         Case{"ensemble_lens", 8, 80, "restir_pt_enhanced.json", {}, {64, 36}}),
+                         pairedName);
+INSTANTIATE_TEST_SUITE_P(LongPaired, Unbiased,
+                         testing::Values(Case{"ensemble_glass", 4, 512, "restir_pt.json", "paired"},
                                          Case{"ensemble_glossy", 4, 256, "restir_pt_enhanced.json"}),
-                         [](const auto& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); });
+                         pairedName);
+
+std::string sceneName(const testing::TestParamInfo<Case>& test) { return test.param.scene; }
 
 // One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's. With a lens it is judged
 // above, splatted below.
-INSTANTIATE_TEST_SUITE_P(FrameJitter, Unbiased,
-                         testing::Values(Case{"ensemble_diffuse", 2, 192, "restir_pt.json", "frame jitter"},
-                                         Case{"ensemble_glass", 4, 384, "restir_pt.json", "frame jitter"},
+INSTANTIATE_TEST_SUITE_P(FrameJitter, Unbiased, testing::Values(Case{"ensemble_diffuse", 2, 192, "restir_pt.json", "frame jitter"}), sceneName);
+INSTANTIATE_TEST_SUITE_P(LongFrameJitter, Unbiased,
+                         testing::Values(Case{"ensemble_glass", 4, 384, "restir_pt.json", "frame jitter"},
                                          Case{"ensemble_moving", 8, 960, "restir_pt.json", "frame jitter"}),
-                         [](const auto& test) { return test.param.scene; });
+                         sceneName);
 
 // Rows of studies/restir_pt_enhanced/combinations.json, which judges all eight: techniques that share code where neither knows of the other.
 struct Combination {
@@ -115,10 +128,12 @@ TEST_P(UnbiasedTogether, ReuseHasTheMeanOfPathTracing) {
     expectUnbiased(c.scene, c.runs, judged, c.row);
 }
 
+std::string combinationName(const testing::TestParamInfo<Combination>& test) { return test.param.scene; }
+
 INSTANTIATE_TEST_SUITE_P(Combinations, UnbiasedTogether,
-                         testing::Values(Combination{"all", "ensemble_moving", "pairing.radius", 512},
-                                         Combination{"tiles, vector weights, two rounds, splatting", "ensemble_lights", "spatial.radius", 96}),
-                         [](const auto& test) { return std::string(test.param.scene); });
+                         testing::Values(Combination{"tiles, vector weights, two rounds, splatting", "ensemble_lights", "spatial.radius", 96}),
+                         combinationName);
+INSTANTIATE_TEST_SUITE_P(LongCombinations, UnbiasedTogether, testing::Values(Combination{"all", "ensemble_moving", "pairing.radius", 512}), combinationName);
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
@@ -135,7 +150,8 @@ TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
                          .frame = 3,
                          .runs = 64,
                          .reference = graph("path_tracer.json", "no accumulation", {}),
-                         .referenceSamples = 2048});
+                         .referenceSamples = 2048,
+                         .device = sharedDevice()});
     for (const char* technique : {"both", "light"}) {
         const EnsembleResult reuse = judge.judge({.graph = sourceFolder / "graphs/restir_pt.json",
                                                   .variant = {},

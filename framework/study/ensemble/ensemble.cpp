@@ -24,7 +24,7 @@ Study studyOf(const EnsembleSetup& setup) {
 
 }  // namespace
 
-EnsembleJudge::EnsembleJudge(EnsembleSetup setup) : study_(studyOf(setup)), stage_(study_, setup.renderer) {
+EnsembleJudge::EnsembleJudge(EnsembleSetup setup) : study_(studyOf(setup)), stage_(study_, setup.renderer, setup.device) {
     reference_ = render(std::nullopt, batchesOf(study_));
 }
 

@@ -17,6 +17,7 @@ struct EnsembleSetup {
     int referenceSamples = 4096;  ///< a pixel, a multiple of referenceBatches
     double halfWidth = 0.01;      ///< see VerdictOptions
     RendererOptions renderer;
+    std::shared_ptr<const gpu::Device> device;  ///< that several judges share, with what it has compiled; none: one of its own
 };
 
 /// Judges graphs on one scene: device, scene and reference are made once.
