@@ -10,9 +10,9 @@
 
 namespace lodestir {
 
-/// Makes a pipeline of each source that the device keeps none of; `made(i, pipeline, milliseconds)` is told as each is ready. Kernels that this machine's driver hasn't
-/// compiled before are compiled by several devices at once, each of which has one thread for it: what the others compile comes back through
-/// the driver's cache on disk.
+/// Makes a pipeline of each source that the device keeps none of; `made(i, pipeline, milliseconds)` is told as each is ready. Kernels that this
+/// machine's driver hasn't compiled before are compiled by several devices at once, each of which has one thread for it: what the others compile comes
+/// back through the driver's cache on disk.
 void compileAhead(const gpu::Device& device, std::span<const KernelSource> sources,
                   const std::function<void(std::size_t, std::shared_ptr<const gpu::Pipeline>, double)>& made);
 

@@ -219,7 +219,7 @@ def kept_study(root, name):
     for technique, given in study["techniques"].items():
         knobs = {**given.get("vary", {}), **{knob: limits[:1] for knob, limits in given.get("solve", {}).items()}}
         configurations += [(technique, dict(zip(knobs, values))) for values in itertools.product(*knobs.values())]
-    masks = ["", f".{study['mask']}"] if "mask" in study else [""]
+    masks = ["", *(f".{mask}" for mask in study.get("masks", [study["mask"]] if "mask" in study else []))]
     metrics = [metric(name + mask) for name in study.get("metrics", []) for mask in masks]
     frames = study["frames"]["measure"]
     graphs = [json.loads((path.parent / technique["graph"]).read_text()) for technique in study["techniques"].values()]
