@@ -190,7 +190,7 @@ const GraphCase withReuse[] = {{"restir_pt.json", "", "ensemble_glossy"},
 const GraphCase others[] = {{"path_tracer.json", "", "ensemble_glass"}, {"restir_pt_2022.json", "", "ensemble_glossy"}};
 INSTANTIATE_TEST_SUITE_P(Reuse, ProbeReuse, testing::ValuesIn(withReuse), nameOf);
 INSTANTIATE_TEST_SUITE_P(Reuse, ProbeBits, testing::ValuesIn(withReuse), nameOf);
-INSTANTIATE_TEST_SUITE_P(Others, ProbeBits, testing::ValuesIn(others), nameOf);
+INSTANTIATE_TEST_SUITE_P(LongOthers, ProbeBits, testing::ValuesIn(others), nameOf);
 
 class ProbeWeights : public FolderTest {
 protected:
