@@ -83,11 +83,12 @@ class Study:
         return with_interval(found["mean"], math.nan if found["halfWidth"] is None else found["halfWidth"])
 
     def mean(self, technique, metric, scene=None, passes=None):
-        """Over all measured frames: of an error, or the "ms" of some passes."""
+        """Over all measured frames that have it: of an error, or the "ms" of some passes."""
         frames = list(self.results.frames)
         if metric == "ms":
             return plain(numpy.mean([self._cost_in(scene or self.scenes[0], technique, "ms", passes, (), frame) for frame in frames]))
-        return plain(numpy.mean([self._cell(technique, scene, frame)["metrics"][metric]["mean"] for frame in frames]), 2)
+        found = [self._cell(technique, scene, frame)["metrics"] for frame in frames]
+        return plain(numpy.mean([metrics[metric]["mean"] for metrics in found if metric in metrics]), 2)
 
     def difference(self, technique, against, metric, scene=None, frame=0):
         places = (technique, scene, frame), (against, scene, frame)
