@@ -68,10 +68,15 @@ float texelRounding(World w, uint instance, Placement placement, float side) {
     return 2.0 * side + error * placementScale(placement);
 }
 
-/// A point of a texel of a mesh, in object space: `place` from the middle, in half sides.
+/// In object space: `place` from the middle, in half sides.
+vec3 pointOn(TexelPlane p, vec2 place) {
+    precise vec3 position = p.middle + place.x * p.along + place.y * p.across;  // kernels that make a path and that shift it find one point
+    return position;
+}
+
+/// The same of a texel of a mesh, with its edges.
 TrianglePoint pointOn(Impostors made, uint mesh, uint index, vec2 place) {
     TexelPlace x = texelPlace(made, index);
     TexelPlane p = texelPlane(made, mesh, x, shapeAt(made, mesh, x.level, x.view, x.texel));
-    precise vec3 position = p.middle + place.x * p.along + place.y * p.across;
-    return TrianglePoint(position, p.middle, p.along, p.across);
+    return TrianglePoint(pointOn(p, place), p.middle, p.along, p.across);
 }

@@ -42,7 +42,7 @@ Surface texelSurfaceAt(World w, Hit hit, vec3 rayDirection) {
     Placement placement = placementOf(w, hit.instance);
     float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
     vec3 view = -normalize(rayDirection);
-    vec3 position = placePoint(placement, plane.middle + hit.barycentrics.x * plane.along + hit.barycentrics.y * plane.across);
+    vec3 position = placePoint(placement, pointOn(plane, hit.barycentrics));
     vec3 perpendicular = mirror * placeNormal(placement, cross(plane.along, plane.across)), normal = safeNormalize(perpendicular, view);
     vec3 shading = safeNormalize(mirror * placeNormal(placement, outOfView(v, plane.seen)), normal);
     bool turns = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(normal, view) < 0.0, front = ((t.flags & TEXEL_BACK) == 0u) != turns;

@@ -20,6 +20,7 @@ uint pathItems(World now) { return 1; }
 
 #if HAS_surfels
 World pathWorld(World now, uint item) { return rest(); }
+World shownWorld(World traced) { return world(); }
 
 /// What the pixel shows of impostors, where that is nearer.
 void meetSurfel(inout Path p, World w, ivec2 pixel) {
@@ -32,6 +33,7 @@ void meetSurfel(inout Path p, World w, ivec2 pixel) {
 }
 #else
 World pathWorld(World now, uint item) { return now; }
+World shownWorld(World traced) { return traced; }
 
 void meetSurfel(inout Path p, World w, ivec2 pixel) {}
 #endif
@@ -78,7 +80,7 @@ vec2 motionOf(Path p, World w) {
 }
 
 void pathItemEnd(inout Path p, World traced, ivec2 pixel, uint item) {
-    World w = world();
+    World w = shownWorld(traced);
     meetSurfel(p, w, pixel);
     PrimaryHit found;
     found.instance = p.hit.instance;

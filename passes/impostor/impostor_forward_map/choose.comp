@@ -112,8 +112,10 @@ Drawn choose(World w, Impostors made, uint instance, DrawnBefore last, out Drawn
     }
     Drawn d = Drawn(DrawnLevel(kept.level, 0u), DrawnLevel(kept.before, 0u), 1.0);
     if (kept.before != kept.level) d.share = float(((frameIndex() - kept.frame) & 0xffffu) + 1u) / float(params.transition + 1);
-    if (d.share >= 1.0) d.before.level = NOT_DRAWN;
-    if (d.share >= 1.0) kept.before = kept.level;
+    if (d.share >= 1.0) {
+        d.before.level = NOT_DRAWN;
+        kept.before = kept.level;
+    }
     if (dot(-way, w.camera.forward) < -scale * object.radius) return d;  // behind the camera
     vec3 towards = w.camera.orthographic != 0u ? -w.camera.forward : safeNormalize(way, -w.camera.forward);
     if (d.now.level != NOT_DRAWN) d.now.views = keptViews(made, placement, towards, d.now.level);
