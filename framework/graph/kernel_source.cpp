@@ -16,26 +16,26 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
-#include <map>
 
 namespace lodestir {
 namespace {
 
-/// Macros of what some pass of the graph does (Fact).
-std::vector<std::pair<std::string, std::string>> graphFacts(const Graph& graph) {
-    std::map<std::string, std::string> facts;
-    for (const GraphNode& node : graph.nodes) {
-        for (const Pass::MacroOfPort& fact : node.pass->facts) {
-            const auto port = std::ranges::find(node.pass->ports, fact.in) - node.pass->ports.begin();
-            if (!node.off && node.inputs[std::size_t(port)]) facts.emplace(fact.macro, "1");
-        }
-    }
-    return {facts.begin(), facts.end()};
-}
-
 bool isDriver(const Path& file) { return file.filename() == "driver.glsl" && file.parent_path().filename() == "trace"; }
 
+bool holds(const GraphNode& node, const Pass::MacroOfGraph& fact, const Scene& scene) {
+    if (!fact.in) return fact.holds(scene);
+    return bool(node.inputs[std::size_t(std::ranges::find(node.pass->ports, fact.in) - node.pass->ports.begin())]);
+}
+
 }  // namespace
+
+std::set<std::string> graphFacts(const Graph& graph, const Scene& scene) {
+    std::set<std::string> facts;
+    for (const GraphNode& node : graph.nodes)
+        for (const Pass::MacroOfGraph& fact : node.pass->facts)
+            if (!node.off && holds(node, fact, scene)) facts.emplace(fact.macro);
+    return facts;
+}
 
 Hash KernelSource::hash() const {
     Hash hash;
@@ -74,7 +74,7 @@ KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const P
     constexpr const char* bodies[] = {"TRACE_PACKET", "TRACE_LANE", "TRACE_RAY_QUERY"};
     source.defines.emplace_back(bodies[std::size_t(options.rays)], "1");
     std::ranges::move(sceneFacts(scene), std::back_inserter(source.defines));
-    std::ranges::move(graphFacts(graph), std::back_inserter(source.defines));
+    for (const std::string& fact : graphFacts(graph, scene)) source.defines.emplace_back(fact, "1");
     if (usesPersistentGroups(device)) source.defines.emplace_back("TRACE_PERSISTENT", "1");
     if (options.checkBounds) source.defines.emplace_back("CHECK_BOUNDS", "1");
     if (options.probe) source.defines.emplace_back("PROBING", "1");

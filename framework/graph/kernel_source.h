@@ -6,6 +6,7 @@
 #include <framework/graph/probe.h>
 #include <framework/graph/runner.h>
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,9 @@ struct KernelSource {
 /// Reads and compiles a shader of a node for a device and a scene. Error with the compiler's messages.
 KernelSource kernelSource(const gpu::Device& device, const Graph& graph, const Plan& plan, const Scene& scene, int node, std::string_view shader,
                           const RunnerOptions& options);
+
+/// Macros of what some pass of the graph does, by its wires and its parameters as they are (Fact).
+std::set<std::string> graphFacts(const Graph& graph, const Scene& scene);
 
 /// The shaders of a folder, in order of their names; tests are none.
 std::vector<Path> shadersIn(const Path& folder);

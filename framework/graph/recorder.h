@@ -18,6 +18,7 @@ public:
     Recorder(State& state, int node, Work& work) : s_(state), node_(node), work_(work) {}
 
     std::uint32_t index() const override { return s_.frame_; }
+    std::uint32_t seed() const override { return s_.graph_.description.seed; }
     glm::uvec2 size() const override { return s_.size_; }
     bool historyValid() const override { return s_.historyValid_; }
     glm::uvec2 sizeOf(const Port& port) const override { return lodestir::sizeOf(s_.graph_, node_, numberOf(port), s_.size_); }

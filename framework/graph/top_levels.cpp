@@ -21,7 +21,7 @@ TopLevels::TopLevels(const gpu::Device& device) : device_(device), listInstances
 std::shared_ptr<const void> TopLevels::add(World& world, VkDeviceAddress place) {
     auto made = std::make_shared<Structure>();
     made->world = place;
-    made->count = world.instanceCount;
+    made->count = world.instanceCount * (world.dissolves != 0 ? 2 : 1);
     made->instances = gpu::Buffer(device_, made->count * sizeof(VkAccelerationStructureInstanceKHR), gpu::Memory::device, "query instances");
     made->top = gpu::makeTopLevel(device_, made->instances.address(), made->count);
     world.tlas = made->top->address();

@@ -20,6 +20,7 @@
 #include <framework/shaders/world/world.h>
 
 #include <cstring>
+#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <span>
@@ -57,6 +58,7 @@ class LODESTIR_API Frame {
 public:
     virtual ~Frame() = default;
     virtual std::uint32_t index() const = 0;          ///< frame number, from 0
+    virtual std::uint32_t seed() const = 0;           ///< of all random numbers of the run
     virtual glm::uvec2 size() const = 0;              ///< of the frame, pixels
     virtual bool historyValid() const = 0;            ///< false at start and after resize, cut and reset
     virtual glm::uvec2 sizeOf(const Port& port) const = 0;      ///< of an image, pixels
@@ -115,11 +117,12 @@ public:
     };
     std::vector<Bypass> bypasses;        ///< with "off": true each out is its in; a pass without any can't be off
     std::vector<Bypass> overwrites;      ///< outs that may lie in the memory of their ins
-    struct MacroOfPort {
+    struct MacroOfGraph {
         std::string_view macro;
-        const Port* in;
+        const Port* in;                           ///< null: `holds` says
+        std::function<bool(const Scene&)> holds;  ///< by the parameters as they are
     };
-    std::vector<MacroOfPort> facts;      ///< macros that all shaders of a graph are compiled with as 1 where the input is wired
+    std::vector<MacroOfGraph> facts;     ///< macros that all shaders of a graph are compiled with as 1 where the input is wired, or where they hold
 
     Pass();
     Pass(const Pass&) = delete;
@@ -148,10 +151,11 @@ struct LODESTIR_API InPlace {
     }
 };
 
-/// Declares that where `in` is wired all shaders of the graph are compiled with a macro as 1: of what graphs can do that few of them do, and others
-/// shouldn't pay for.
+/// Declares that where `in` is wired, or where `holds` says so, all shaders of the graph are compiled with a macro as 1: of what graphs can do that few of
+/// them do, and others shouldn't pay for.
 struct LODESTIR_API Fact {
-    Fact(Pass* pass, std::string_view macro, const Port& in) { pass->facts.push_back({macro, &in}); }
+    Fact(Pass* pass, std::string_view macro, const Port& in) { pass->facts.push_back({macro, &in, {}}); }
+    Fact(Pass* pass, std::string_view macro, std::function<bool(const Scene&)> holds) { pass->facts.push_back({macro, nullptr, std::move(holds)}); }
 };
 
 /// One pass of a plugin library, linked into the library's own list.

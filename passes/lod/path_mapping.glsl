@@ -5,6 +5,7 @@
 #include "restir/reservoir.glsl"
 #include "restir/sample_hit.h"
 #include "surface/surface_point.glsl"
+#include "world/ray_levels.glsl"
 
 /// Which points pass from level to level, and how; the others are lost where the level has changed.
 struct LevelMapping {
@@ -14,12 +15,18 @@ struct LevelMapping {
     bool worldSpace;    // those distances are as `now` places the mesh, not as it was made
 };
 
+/// Numbers by which rays choose levels (world/ray_levels.glsl) where a path comes from and where it goes.
+struct RayNumbers {
+    uint from, to;
+};
+
 /// Takes a point of texture coordinate `uv` from one World to another. False: it can't be found there. `jacobian`: barycentric area there per area here.
 /// `now`: one of the two Worlds, the same there and back, so that tau can be undone.
-bool mapSurfacePoint(World from, World to, World now, UvIndex index, bool mapped, LevelMapping mapping, inout SurfacePoint p, vec2 uv, out float jacobian) {
+bool mapSurfacePoint(World from, World to, World now, RayNumbers numbers, UvIndex index, bool mapped, LevelMapping mapping, inout SurfacePoint p, vec2 uv,
+                     out float jacobian) {
     jacobian = 1.0;
-    uint before = from.levels.at[p.instance], after = to.levels.at[p.instance];
-    if (before == after || isShown(to, p)) return true;
+    uint before = levelSeen(from, p.instance, numbers.from), after = levelSeen(to, p.instance, numbers.to);
+    if (before == after || isShown(to, p, numbers.to)) return true;
     if (!mapped || max(before, after) >= LEVELS) return false;  // hidden in one of them
     Placement placed = placementOf(now, p.instance);
     mat3 space = mapping.worldSpace ? transpose(mat3(placed.row0, placed.row1, placed.row2)) : mat3(1.0);
@@ -44,7 +51,8 @@ struct MappedPath {
 };
 
 /// Takes all that `wanted` (MAP_*) says from one World to the other, at one place in the code: a map is many reads, and is compiled wherever it is called.
-MappedPath mapPath(World from, World to, World now, UvIndex index, LevelMapping mapping, uint wanted, PrimaryHit centre, Reservoir path, SampleHit hit) {
+MappedPath mapPath(World from, World to, World now, RayNumbers numbers, UvIndex index, LevelMapping mapping, uint wanted, PrimaryHit centre, Reservoir path,
+                   SampleHit hit) {
     uint kind = reconnectionKind(unpackShape(path.shape));
     bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && kind != RC_LIGHT;
     MappedPath m = MappedPath(path, hit, true, holdsPath(path), 1.0);
@@ -60,7 +68,7 @@ MappedPath mapPath(World from, World to, World now, UvIndex index, LevelMapping 
         }
         float stretch = 1.0;
         bool mapped = part == MAP_CONNECTED ? mapping.reconnection : mapping.primary;
-        bool there = p.primitive == NONE || mapSurfacePoint(from, to, now, index, mapped, mapping, p, uv, stretch);
+        bool there = p.primitive == NONE || mapSurfacePoint(from, to, now, numbers, index, mapped, mapping, p, uv, stretch);
         if (part == MAP_CENTRE) {
             m.centreIsThere = there;
             continue;

@@ -12,6 +12,7 @@
 #include "restir/light_number.glsl"
 #include "restir/rules.h"
 #include "world/primary_hit.h"
+#include "world/ray_levels.glsl"
 
 vec3 onGrid(vec3 direction) { return unpackDirection(packDirection(direction)); }
 
@@ -19,6 +20,9 @@ vec3 onGrid(vec3 direction) { return unpackDirection(packDirection(direction)); 
 vec3 arrival(World w, Hit hit, vec3 from, vec3 direction) {
     return safeNormalize(positionAt(w, pointOf(hit)) - from, direction);
 }
+
+/// By which the rays of a path choose levels in pixel `p`: it goes with the camera sample, which is the path's own or the pixel's.
+uint pathNumber(ShiftRules rules, World w, ivec2 p, uvec2 seed) { return rules.pixelCamera != 0u ? numberOfPixel(w, p) : numberOfPath(seed); }
 
 /// The geometry term of the Jacobian per barycentric area of x_k instead of per area: barycentrics are what a shift keeps, so that a triangle
 /// that grew from one frame to the next is accounted for.

@@ -7,7 +7,7 @@
 // path's own numbers are replayed up to y_{k-1}, which is connected to x_k; what follows x_k is kept (Lin et al. 2022, Generalized Resampled
 // Importance Sampling, section 7.2; Lin et al. 2026, ReSTIR PT Enhanced, section 2.3). Without x_k the whole path is replayed. Where
 // something moved between the two Worlds, what follows x_k is walked again by its numbers, so that its radiance belongs to the World it is
-// shifted to.
+// shifted to; so it is where levels are chosen pixel by pixel and the two pixels may see others.
 //
 // The shift fails (jacobian 0) wherever shifting back would not lead to the same path: before k no pair of vertices may be connectable, the
 // pair at k must be, and the light must be met as it was.
@@ -32,6 +32,7 @@ struct Shift {
     bool refresh;        // walk anew what follows x_k
     bool known;          // y_1 is in `hit` already: no ray is needed
     bool carried;        // y_1 is x_1 where it is now, and keeps the texture coordinate it was stored with, so that the way back finds it
+    uint number;         // by which rays choose levels where the path goes
     uint state;          // SHIFT_*
     uint vertex;         // j of the last vertex y_j that was reached
     Ray ray;
@@ -81,6 +82,7 @@ bool shiftStart(inout Shift t, World w, ShiftRules rules, ShiftTask task, uvec2 
     t.known = task.carried || rules.pixelCamera != 0u;
     if (t.known) t.hit.hit = task.first;
     else t.hit.hit = PrimaryHit(NONE, NONE, vec2(0.0), task.base.hit.film, task.base.hit.lens);
+    t.number = pathNumber(rules, w, task.to, task.path.seed);
     t.state = task.carried ? SHIFT_SEE : SHIFT_WALK;
     t.vertex = 0u;
     t.resumes = false;
@@ -221,7 +223,7 @@ bool depart(Shift t, World w, Surface s, Bsdf b, LobeChances chance, vec3 wo, bo
         d.lobe = t.shape.lobeBefore;
         d.way = unpackDirection(t.path.rcDirection);
         if (kind != RC_ENVIRONMENT) {
-            if (!isShown(w, connectedPoint(t))) return false;
+            if (!isShown(w, connectedPoint(t), t.number)) return false;
             d.goal = segmentEnd(w, connectedPoint(t), s.position, d.gap);
             d.way = safeNormalize(d.goal - s.position, d.way);
         }

@@ -5,6 +5,7 @@
 #include <framework/core/log.h>
 #include <framework/gpu/commands.h>
 #include <framework/gpu/include_closure.h>
+#include <framework/graph/kernel_source.h>
 #include <framework/graph/struct_layout.h>
 #include <framework/image/exr.h>
 #include <framework/image/png.h>
@@ -363,7 +364,9 @@ void ViewSession::setParameter(const std::string& name, const Value& value) {
         if (value == given_[name]) set_.erase(name);
         else set_[name] = value;
         if (parameter->constant) return build();
+        const std::set<std::string> before = graphFacts(session_->graph(), session_->scene());
         parameter->value = value;
+        if (graphFacts(session_->graph(), session_->scene()) != before) return build();
         changedByHand(true);
     }
 }

@@ -8,6 +8,7 @@
 #include "surface/rounding.glsl"
 #include "world/primary_hit.h"
 #include "world/ray.h"
+#include "world/ray_levels.glsl"
 #include "world/scene_facts.glsl"
 #include "world/triangle.glsl"
 #if TEXEL_SURFACES
@@ -66,10 +67,10 @@ vec3 smoothNormalAt(World w, SurfacePoint p) {
     return safeNormalize(placeNormal(placement, n), vec3(0.0, 1.0, 0.0));
 }
 
-/// Does this World show the point, at the level at which the instance is present?
-bool isShown(World w, SurfacePoint p) {
+/// Does this World show the point to rays of a number (world/ray_levels.glsl), at the level at which the instance is present to them?
+bool isShown(World w, SurfacePoint p, uint number) {
     if (isTexel(p.primitive)) return true;
-    uint shown = w.levels.at[p.instance], level = w.instances.at[p.instance].mesh * LEVELS + min(shown, LEVELS - 1u);
+    uint shown = levelSeen(w, p.instance, number), level = w.instances.at[p.instance].mesh * LEVELS + min(shown, LEVELS - 1u);
     return shown < LEVELS && p.primitive - w.meshLevels.at[level].firstPrimitive < w.meshLevels.at[level].primitiveCount;
 }
 

@@ -11,6 +11,8 @@
 //   bool pathStep(inout Path path, World w, Hit hit);         goes on from what that ray hit; false: there is no other ray
 //   void pathItemEnd(inout Path path, World w, ivec2 pixel, uint item);  after the item's last ray, also where it had none
 //   void pathEnd(Path path, ivec2 pixel);                     after the last item
+// and, if it defines PATH_NUMBER as well,
+//   uint pathNumber(Path path, World w, ivec2 pixel);         by which an item's rays choose levels (world/ray_levels.glsl); without: the pixel's
 // where `now` is the pass's input `world`, read once. pathRay may be called several times for one ray, and so has to give the same one. The whole
 // subgroup walks in step: its paths alternate between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both
 // lanes that go their own way and lanes that start their next path early).
@@ -45,6 +47,10 @@ void driverCount(uint purpose) {
     driverRays[1] += uvec3(equal(uvec3(purpose), uvec3(3u, 4u, 5u)));
 }
 
+#ifndef PATH_NUMBER
+uint pathNumber(Path path, World w, ivec2 pixel) { return numberOfPixel(w, pixel); }
+#endif
+
 void driverWalk(ivec2 pixel) {
     bool inside = all(lessThan(uvec2(pixel), push.extent));
     Path path;
@@ -63,6 +69,7 @@ void driverWalk(ivec2 pixel) {
             if (live) ray = pathRay(path, anyHit, purpose);
             bool mine = live && anyHit == phase;
             if (!mine) ray.tMax = -1.0;
+            if (RAY_LEVELS != 0) ray.flags |= pathNumber(path, w, pixel);
             if (subgroupAny(mine)) {
                 Hit hit = traceRay(w, ray, phase);
                 if (mine) {

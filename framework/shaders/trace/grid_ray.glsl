@@ -15,6 +15,12 @@ GridRay gridRay(vec3 origin, vec3 direction, vec3 base, vec3 scale) {
     return GridRay(origin, direction, slope, (base - origin) * inverse, abs(slope));
 }
 
+// What enters no box and meets no triangle.
+GridRay noRay(GridRay r) {
+    const float beyond = 1e37;
+    return GridRay(r.origin, vec3(0.0), r.slope, vec3(beyond), r.steepness);
+}
+
 // The children's boxes: lanes 0-3 of xy hold x, lanes 4-7 y, lanes 0-3 of z hold z.
 struct Boxes {
     float xyCenter, xyWidth;

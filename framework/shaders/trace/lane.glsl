@@ -70,14 +70,14 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             slope *= w.gridScale;
             current = stack[--size];
         } else {
-            instance = current & 0x1fffffffu;
+            instance = current & REF_INSTANCE_BITS;
             TraceInstance record = LaneInstances(w.traceInstances).at[instance];
             origin = pointToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.origin);
             direction = directionToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.direction);
             slope = inverseOf(direction);
             offset = (record.boxes - origin) * slope;
             stack[size++] = REF_BACK;
-            current = rootOf(w, instance, record.mesh);
+            current = rootOf(w, record.mesh, levelSeen(w, instance, ray.flags));
         }
     }
     return anyHit ? arrivedHit(hit, passage) : hit;

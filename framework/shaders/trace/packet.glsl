@@ -140,14 +140,26 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
             current = topOf(stack);
             --stack.size;
         } else {
-            p.instance = current & 0x1fffffffu;
+            p.instance = current & REF_INSTANCE_BITS;
             uint64_t record = loadSpread(w.traceInstances + uint64_t(p.instance) * 64ul, 8u);
             r = enterInstance(record, outside.origin, outside.direction);
             outsideStack = stack;
+            uint level = w.levels.at[p.instance];
+#if RAY_LEVELS
+            // Where rays see two levels, those that see the coarser one come in alone, after the others, who then wait.
+            bool coarser = seesCoarser(w, p.instance, ray.flags), counts = loneSize != 0u ? packetLane() == lone : p.tMax > 0.0;
+            bool second = (current & REF_COARSER) != 0u || !subgroupAny(counts && !coarser);
+            if (!second && subgroupAny(counts && coarser)) {
+                pushRanked(outsideStack, current | REF_COARSER, 1u);
+                ++outsideStack.size;
+            }
+            if (second) ++level;
+            if (coarser != second) r = noRay(r);
+#endif
             stack = stackOf(REF_BACK);
             outsideLoneSize = loneSize;
             loneSize = loneSize != 0u ? 1u : 0u;
-            current = rootOf(w, p.instance, dwordOf(record, 12u));
+            current = rootOf(w, dwordOf(record, 12u), level);
         }
         loneSize = stack.size < loneSize ? 0u : loneSize;
     }

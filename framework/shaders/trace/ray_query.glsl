@@ -4,9 +4,20 @@
 #extension GL_EXT_ray_query : require
 #include "trace/reference.glsl"
 
-// World.primitives index of a triangle of an instance's level.
-uint queriedPrimitive(World w, uint instance, uint triangle) {
-    return w.meshLevels.at[w.instances.at[instance].mesh * LEVELS + w.levels.at[instance]].firstPrimitive + triangle;
+// An entry of that structure (trace/instance_list.comp).
+struct QueriedInstance {
+    uint instance;
+    bool coarser;  // of its two levels
+};
+QueriedInstance queriedInstance(World w, uint entry) {
+    bool coarser = RAY_LEVELS != 0 && entry >= w.instanceCount;
+    return QueriedInstance(coarser ? entry - w.instanceCount : entry, coarser);
+}
+
+// World.primitives index of a triangle of an entry's level.
+uint queriedPrimitive(World w, QueriedInstance q, uint triangle) {
+    uint level = w.levels.at[q.instance] + (q.coarser ? 1u : 0u);
+    return w.meshLevels.at[w.instances.at[q.instance].mesh * LEVELS + level].firstPrimitive + triangle;
 }
 
 Hit traceRay(World w, Ray ray, bool anyHit) {
@@ -16,20 +27,23 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
     // The driver's structure is over all instances: where one is to be seen alone (onlyInstance), each triangle is asked whose it is.
     bool alone = w.topRoot >= REF_INSTANCE && w.instanceCount > 1u;
     uint flags = (anyHit ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT) | (alone ? gl_RayFlagsNoOpaqueEXT : gl_RayFlagsNoneEXT);
+    uint mask = RAY_LEVELS == 0 ? 0xffu : 1u << (ray.flags >> 29);
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, accelerationStructureEXT(w.tlas), flags, 0xffu, ray.origin, max(ray.tMin, 0.0), ray.direction, ray.tMax);
+    rayQueryInitializeEXT(query, accelerationStructureEXT(w.tlas), flags, mask, ray.origin, max(ray.tMin, 0.0), ray.direction, ray.tMax);
     while (rayQueryProceedEXT(query)) {  // else it stops at triangles of levels where some have an alpha mask or are panes
-        Hit met = Hit(rayQueryGetIntersectionTEXT(query, false), rayQueryGetIntersectionBarycentricsEXT(query, false), 0u,
-                      rayQueryGetIntersectionInstanceIdEXT(query, false));
-        met.primitive = queriedPrimitive(w, met.instance, rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-        bool accepted = !alone || (REF_INSTANCE | uint(met.instance)) == w.topRoot;
+        QueriedInstance q = queriedInstance(w, rayQueryGetIntersectionInstanceIdEXT(query, false));
+        Hit met = Hit(rayQueryGetIntersectionTEXT(query, false), rayQueryGetIntersectionBarycentricsEXT(query, false),
+                      queriedPrimitive(w, q, rayQueryGetIntersectionPrimitiveIndexEXT(query, false)), q.instance);
+        bool accepted = !alone || (REF_INSTANCE | met.instance) == w.topRoot;
+        if (RAY_LEVELS != 0 && accepted) accepted = seesCoarser(w, q.instance, ray.flags) == q.coarser;
         if (accepted) accepted = alphaAccepts(w, met.primitive, met.barycentrics);
         if (anyHit && accepted) accepted = endsLight(w, ray, met, passage);
         if (accepted) rayQueryConfirmIntersectionEXT(query);
     }
     if (rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionTriangleEXT) return anyHit ? arrivedHit(hit, passage) : hit;
-    hit.instance = rayQueryGetIntersectionInstanceIdEXT(query, true);
-    hit.primitive = queriedPrimitive(w, hit.instance, rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
+    QueriedInstance q = queriedInstance(w, rayQueryGetIntersectionInstanceIdEXT(query, true));
+    hit.instance = q.instance;
+    hit.primitive = queriedPrimitive(w, q, rayQueryGetIntersectionPrimitiveIndexEXT(query, true));
     hit.t = rayQueryGetIntersectionTEXT(query, true);
     hit.barycentrics = rayQueryGetIntersectionBarycentricsEXT(query, true);
     return hit;

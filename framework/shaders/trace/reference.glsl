@@ -2,11 +2,14 @@
 // Node references and the memory that both software traversals read; scene/bvh/bvh.h says how nodes and triangles are laid out.
 #include "world/world.h"
 #include "world/ray.h"
+#include "world/ray_levels.glsl"
 
 const uint REF_LEAF = 0x80000000u;      // | (count - 1) << 28 | REF_MASKED when one of the triangles has an alpha mask | first triangle
 const uint REF_MASKED = 0x08000000u;
 const uint REF_BACK = 0xd0000000u;      // return from an instance
 const uint REF_INSTANCE = 0xe0000000u;  // | instance
+const uint REF_COARSER = 0x10000000u;   // of an instance: entered by those rays alone that see the coarser of its two levels
+const uint REF_INSTANCE_BITS = 0x0fffffffu;
 const uint REF_NONE = 0xffffffffu;
 
 /// A World that shows one of its instances alone, whatever else is there.
@@ -32,10 +35,10 @@ vec3 pointToGrid(vec4 x, vec4 y, vec4 z, vec3 point) {
 }
 vec3 directionToGrid(vec4 x, vec4 y, vec4 z, vec3 d) { return vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d)); }
 
-// The root that the instance shows: its level is read here, so a switch of levels rebuilds nothing. Without triangles, or beyond all levels (which is how
+// The root that an instance shows: its level is read where it is entered, so a switch of levels rebuilds nothing. Without triangles, or beyond all levels (which is how
 // passes hide an instance): straight back.
-uint rootOf(World w, uint instance, uint mesh) {
-    uint level = w.levels.at[instance], root = REF_NONE;
+uint rootOf(World w, uint mesh, uint level) {
+    uint root = REF_NONE;
     if (level < LEVELS) root = w.roots.at[mesh * LEVELS + level];
     return root == REF_NONE ? REF_BACK : root;
 }

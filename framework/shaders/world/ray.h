@@ -11,7 +11,7 @@ struct Ray {
     float tMin;
     vec3 direction;  // need not be unit: t counts in its length
     float tMax;      // < 0: no ray (a lane that only keeps its subgroup company)
-    uint flags;      // RAY_*; bits 8 to 31 are free for where levels are chosen ray by ray
+    uint flags;      // RAY_*; bits 8 to 31: number by which it chooses levels (world/ray_levels.glsl)
 };
 const uint RAY_THROUGH_PANES = 1u;  // an any-hit ray goes on through what lets light straight through (trace/pane.glsl); without, that ends it
 

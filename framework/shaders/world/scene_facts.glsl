@@ -6,6 +6,9 @@
 #ifndef TEXEL_SURFACES
 #define TEXEL_SURFACES 0  // surfaces may be texels of impostors: graphs in which camera hits are (visibility.surfels), and shaders that define it
 #endif
+#ifndef RAY_LEVELS
+#define RAY_LEVELS 0      // instances may dissolve into their next level (world/ray_levels.glsl): graphs in which a pass makes them
+#endif
 #ifndef SCENE_MASKS
 #define SCENE_MASKS 1   // MATERIAL_MASK
 #endif

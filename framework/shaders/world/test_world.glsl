@@ -25,12 +25,12 @@ uint64_t testArray(uint array) { return testPush.results + 16ul + 48ul * uint64_
 World testWorld() {
     World w;
     w.nodes = w.triangles = w.traceInstances = w.bottomLevels = w.tlas = 0ul;
-    w.roots = w.levels = UintArray(0ul);
+    w.roots = w.levels = w.dissolves = UintArray(0ul);
     w.meshLevels = LevelArray(0ul);
     w.meshes = MeshArray(0ul);
     w.gridBase = w.gridScale = w.sceneCenter = vec3(0.0);
     w.topRoot = NONE;
-    w.instanceCount = w.lightCount = 0u;
+    w.instanceCount = w.lightCount = w.frameKey = 0u;
     w.instances = InstanceArray(testArray(TEST_INSTANCES));
     w.primitives = PrimitiveArray(testArray(TEST_PRIMITIVES));
     w.emitters = UintArray(testArray(TEST_EMITTERS));

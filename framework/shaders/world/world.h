@@ -202,12 +202,14 @@ struct World {
     LODESTIR_ARRAY_OF(UintArray) roots;              // node reference of mesh m at level l: roots[m * LEVELS + l]
     LODESTIR_ARRAY_OF(UintArray) levels;             // level shown of each instance
     LODESTIR_ARRAY_OF(UintArray) levelsChanged;      // one word: 1 where any of them differs from last frame's
+    LODESTIR_ARRAY_OF(UintArray) dissolves;          // of each instance, how many of the rays see the next coarser level (world/ray_levels.glsl); 0: none
     uint64_t bottomLevels;                           // for ray queries: address of the driver's structure of mesh m at level l at m * LEVELS + l; 0: none
     uint64_t tlas;                                   // the driver's top level over the levels shown, set by the runner; 0: none
     vec3 gridBase;                                   // of the top level: world = base + scale * grid
     uint topRoot;                                    // node reference
     vec3 gridScale;
     uint instanceCount;
+    uint frameKey;                                   // of run and frame: by it pixels draw the numbers that their rays choose levels by
 
     // Geometry and materials.
     LODESTIR_ARRAY_OF(InstanceArray) instances;

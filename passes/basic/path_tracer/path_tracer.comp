@@ -24,6 +24,7 @@ struct Path {
     vec3 direct;        // what the light sample adds where nothing is in the way
     Ray onward;         // the path's own next ray, while `ray` goes to a light
     bool ends;          // there is none
+    bool beyond;        // `ray` has come to fineReach
 };
 
 #if HAS_hits
@@ -52,7 +53,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.pdf = 0;
     p.toLight = false;
     p.direct = vec3(0);
-    p.ends = false;
+    p.ends = p.beyond = false;
     vec2 offset = filmPlace(p.seed);
     vec2 lens = lensPlace(p.seed);
 #if HAS_hits
@@ -142,6 +143,9 @@ bool scatter(inout Path p, World w, Hit hit) {
     return !p.ends;
 }
 
+/// t at fineReach.
+float nearPart(Ray ray) { return params.fineReach / length(ray.direction); }
+
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
     anyHit = p.toLight;
     purpose = p.toLight ? RAYS_NEE : p.scatterings == 0 ? RAYS_PRIMARY : RAYS_CONTINUE;
@@ -153,10 +157,23 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
         return none;
     }
 #endif
-    return p.ray;
+    Ray ray = p.ray;
+    if (RAY_LEVELS != 0 && params.fineReach > 0 && p.scatterings > 0 && !p.beyond) ray.tMax = min(ray.tMax, nearPart(ray));
+    return ray;
+}
+
+/// A ray that sees finer levels up to fineReach and coarser ones beyond is two rays.
+bool goesBeyond(inout Path p, Hit hit) {
+    if (RAY_LEVELS == 0 || params.fineReach == 0 || p.scatterings == 0) return false;
+    bool goes = !p.beyond && hit.primitive == NONE && p.ray.tMax > nearPart(p.ray);
+    if (goes && p.toLight) p.direct *= transmittance(hit);
+    if (goes) p.ray.tMin = nearPart(p.ray);
+    p.beyond = goes;
+    return goes;
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
+    if (goesBeyond(p, hit)) return true;
 #if HAS_hits
     if (!p.toLight && p.scatterings == 0) hit = firstHit(p, w);
 #endif
@@ -169,6 +186,17 @@ bool pathStep(inout Path p, World w, Hit hit) {
 }
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
+
+#define PATH_NUMBER
+uint pathNumber(Path p, World w, ivec2 pixel) {
+    if (p.scatterings > 0 && params.fineReach > 0) return p.beyond ? 0u : RAY_NUMBER;
+    if (params.numbers == numbers_ray) return numberOfPath(randomBits3(p.seed, 2 * p.scatterings + (p.toLight ? 1 : 0), RANDOM_LEVEL).xy);
+#if HAS_hits
+    return numberOfPixel(w, pixel);
+#else
+    return numberOfPath(p.seed);
+#endif
+}
 
 void pathEnd(Path p, ivec2 pixel) { storeColor(pixel, vec4(p.radiance / float(params.spp), 1)); }
 

@@ -2,6 +2,7 @@
 // One invocation an instance.
 #version 460
 #include "pass.glsl"
+#include "lod/depth_level.glsl"
 #include "lod/total_error.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Words { uint at[]; };
@@ -27,8 +28,22 @@ void main() {
     if (argument(0) == uint(mode_screen_error)) level = levelByError(w, instance, uintBitsToFloat(argument(1)), known, last, params.hysteresis);
     if (argument(0) == uint(mode_total_error))
         level = levelByTotalError(w, instance, TotalError(params.edges, params.samples, params.doubling), known, last, params.hysteresis);
+    uint dissolve = 0;
+    bool same = known && level == last;
+    if (argument(0) == uint(mode_depth) || argument(0) == uint(mode_stochastic)) {
+        bool dissolves = argument(0) == uint(mode_stochastic);
+        DepthCurve curve = DepthCurve(params.curve == curve_log, w.sceneRadius * params.depthNear, w.sceneRadius * params.depthFar, params.bias);
+        LevelShare between = levelShare(levelByDepth(w, instance, curve), w.meshes.at[mesh].levels, dissolves ? params.transition : 0, uint(params.steps));
+        level = between.level;
+        same = known && level == last;
+        if (dissolves) {
+            dissolve = dissolveOf(between, uint(params.steps), params.numbers == numbers_each);
+            same = same && uint64_t(worldPrev().dissolves) != 0ul && worldPrev().dissolves.at[instance] == dissolve;
+            Words(uint64_t(w.dissolves)).at[instance] = dissolve;
+        }
+    }
     levels.at[instance] = level;
-    if (!known || level != last) atomicOr(levelsChanged.at[0], 1);
+    if (!same) atomicOr(levelsChanged.at[0], 1);
     if (known && level != last && instance < changedCount()) storeChanged(instance, frameIndex() + 1);
 
     if ((w.instances.at[instance].flags & INSTANCE_HIDDEN) != 0u) return;

@@ -8,7 +8,9 @@
 
 using namespace lodestir;
 
-enum class Mode { scene, finest, fixed, schedule, distance, screen_error, total_error };
+enum class Mode { scene, finest, fixed, schedule, distance, screen_error, total_error, depth, stochastic };
+enum class Curve { log, linear };
+enum class Numbers { shared, each };
 
 struct LodSelect final : Pass {
     In<World>           world{this, "world", "the scene"};
@@ -20,9 +22,10 @@ struct LodSelect final : Pass {
     Out<Buffer<uint>>   triangles{this, "triangles", "of the levels shown, over all instances: 64 bits, the low word first", Count::fixed(2)};
     Out<Buffer<uint>>   bytes{this, "bytes", "that the levels shown take, each once: 64 bits, the low word first", Count::fixed(2)};
     Scratch<Buffer<uint>> shown{this, "shown", "how many instances show level l of mesh m, at m * LEVELS + l", Count::reserved()};
-    Param<Mode>         mode{this, "mode", Mode::scene, {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error"},
+    Param<Mode>         mode{this, "mode", Mode::scene, {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error", "depth", "stochastic"},
                      "how levels are chosen: as the scene file says; finest; one for all; by the scene file's schedule; by distance; the coarsest whose "
-                     "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost"};
+                     "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost; by depth; by depth, and "
+                     "in between a share of the rays sees the next coarser one already"};
     Param<int>          level{this, "level", 0, {0, int(LEVELS) - 1}, "of fixed: what all instances show; the coarsest where a mesh has fewer"};
     Param<float>        pixelError{this, "pixelError", 0, {0, 1000}, "largest error on the screen, pixels; 0: the scene file's"};
     Param<float>        hysteresis{this, "hysteresis", 0.2f, {0, 0.9f},
@@ -38,19 +41,38 @@ struct LodSelect final : Pass {
                              "frames by which the schedule is read ahead: what a run would look like in which its switches had been made that much earlier"};
     Param<float>        distance{this, "distance", 8, {0.01f, 1e6f},
                                  "up to where the finest level is shown, in radii of the mesh; each doubling shows the next level"};
+    Param<Curve>        curve{this, "curve", Curve::log, {"log", "linear"},
+                              "of depth and stochastic: how levels follow the depth along the view between depthNear, where they leave the finest, and depthFar"};
+    Param<float>        depthNear{this, "depthNear", 0.1f, {1e-6f, 1e6f}, "of depth and stochastic: radii of the scene"};
+    Param<float>        depthFar{this, "depthFar", 2, {1e-6f, 1e6f},
+                                 "of depth and stochastic: radii of the scene, where all levels of a mesh have been gone through"};
+    Param<float>        bias{this, "bias", 0, {-float(LEVELS), float(LEVELS)}, "of depth and stochastic: levels that all are coarser"};
+    Param<float>        transition{this, "transition", 0.5f, {0, 1},
+                                   "of stochastic: share of the way from level to level in which rays see both; 0: they switch half way, as with depth"};
+    Param<int>          steps{this, "steps", 8, {1, 1 << 16},
+                              "of stochastic: in how many steps the share of rays grows; eight are what masks of driver's instances can hold"};
+    Param<Numbers>      numbers{this, "numbers", Numbers::shared, {"shared", "each"},
+                                "of stochastic: what a ray chooses by: one number for all instances, or one of its own for each"};
+    Fact                levelsOfRays{this, "RAY_LEVELS", [this](const Scene& scene) { return modeOf(scene.lod.mode) == Mode::stochastic; }};
 
     /// Levels given by frame number are uploaded, others are left to the shader, which in both cases notes whether any differs from last frame's.
     void execute(Frame& frame) override {
         const Scene& scene = frame.scene();
         const Mode chosen = modeOf(scene.lod.mode);
+        if (depthFar <= depthNear)
+            throw Error("depthFar of a lod_select lies no farther than its depthNear", "levels go from the finest at depthNear to the coarsest at depthFar");
         std::vector<std::uint32_t> levels(scene.instances.size(), 0);
         if (chosen == Mode::schedule) levels = scheduledLevels(scene, float(frame.index()) + float(int(lead)));
         const auto count = std::uint32_t(levels.size());
-        levels.push_back(0);  // levelsChanged
+        levels.resize(chosen == Mode::stochastic ? 2 * count + 1 : count + 1);  // levelsChanged, dissolves
         const Memory memory = frame.upload(levels, "levels");
         World made = frame.valueOf(world);
         made.levels = memory.address;
         made.levelsChanged = made.levels + count * sizeof(std::uint32_t);
+        if (chosen == Mode::stochastic) {
+            made.dissolves = made.levelsChanged + sizeof(std::uint32_t);
+            made.frameKey = frame.seed() * 0x9e3779b9u + frame.index() * 0x85ebca6bu;
+        }
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
         frame.reserve(shown, std::uint32_t(scene.meshes.size()) * LEVELS);
@@ -65,10 +87,11 @@ private:
             case LodMode::schedule: return Mode::schedule;
             case LodMode::distance: return Mode::distance;
             case LodMode::screenError: return Mode::screen_error;
+            case LodMode::stochastic: return Mode::stochastic;
             default: return Mode::finest;
         }
     }
 };
 LODESTIR_PASS(LodSelect, "lod_select.comp",
-              "Chooses the level of detail of each instance: finest, fixed, scheduled, by distance, by the error that a level makes on the screen, or by that "
-              "and the noise that a budget leaves.")
+              "Chooses the level of detail of each instance: finest, fixed, scheduled, by distance or depth, by the error that a level makes on the screen, or by "
+              "that and the noise that a budget leaves; ray by ray while it passes from one to the next.")

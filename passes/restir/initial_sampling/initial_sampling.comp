@@ -87,6 +87,9 @@ bool pathStep(inout Path p, World w, Hit hit) {
     return treeStep(p.tree, w, rules(), limits, hit, p.decisions);
 }
 
+#define PATH_NUMBER
+uint pathNumber(Path p, World w, ivec2 pixel) { return pathNumber(rules(), w, pixel, p.tree.seed); }
+
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
 
 void pathEnd(Path p, ivec2 pixel) {

@@ -41,6 +41,9 @@ struct SpatialPairedReuse final : Pass {
     PassThrough                     off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
+        if (frame.valueOf(rules).pixelCamera != 0 && frame.valueOf(world).dissolves != 0)
+            throw Error("partners can't share their shifts where each pixel sees other levels: what follows the reconnection vertex is another light for each",
+                        "reuse by spatial_reuse, or let paths choose their levels (initial_sampling, \"camera\": \"path\")");
         const std::uint32_t pixels = frame.size().x * frame.size().y, records = pixels * frame.valueOf(pairing).slots;
         frame.reserve(between, rounds > 1 ? pixels : 0);
         frame.reserve(shifts, records);

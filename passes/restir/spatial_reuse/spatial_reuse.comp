@@ -2,7 +2,11 @@
 // Each neighbour costs two shifts: its path to this pixel, and this pixel's path to it, for the MIS weight of the own path.
 #version 460
 #include "pass.glsl"
+#if HAS_uv
+#include "lod/path_mapping.glsl"
+#endif
 #include "restir/pairwise.glsl"
+#include "restir/pixel_levels.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/neighbours.glsl"
@@ -72,6 +76,19 @@ void offer(inout Reuse r, ivec2 pixel, uint number, Reservoir path, SampleHit hi
     r.keptHit = hit;
 }
 
+// What the path met on its way from pixel `from` may be of levels that the pixel it goes to doesn't see: x_k passes to the one it does see, what follows is
+// walked anew.
+void takeToLevels(World w, ivec2 from, inout ShiftTask task) {
+    task.refresh = true;
+#if HAS_uv
+    RayNumbers numbers = RayNumbers(numberOfPixel(w, from), numberOfPixel(w, task.to));
+    MappedPath mapped = mapPath(w, w, w, numbers, uv(), LevelMapping(false, true, true, false), MAP_CONNECTED, task.first, task.path, task.base);
+    task.path = mapped.path;
+    task.base.rc = mapped.hit.rc;
+    task.jacobian = mapped.isThere ? mapped.jacobian : 0.0;
+#endif
+}
+
 ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way) {
     ivec2 to = r.neighbour;
     Reservoir path = r.own;
@@ -90,7 +107,9 @@ ShiftTask reuseTask(inout Reuse r, World w, ivec2 pixel, uint partner, uint way)
     }
     if (r.confidence == 0) return shiftOfNothing();
     PROBE_SHIFT(way, way == FORTH ? r.neighbour : pixel, to);
-    return shiftTo(to, hits(place(to)), path, hit);
+    ShiftTask task = shiftTo(to, hits(place(to)), path, hit);
+    if (differInLevels(rules())) takeToLevels(w, way == FORTH ? r.neighbour : pixel, task);
+    return task;
 }
 
 void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift result) {

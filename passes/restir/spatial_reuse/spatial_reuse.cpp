@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths of neighbours, shifted here.
 #include <framework/pass/pass.h>
+#include <passes/lod/uv_index.h>
 #include <passes/restir/pairing.h>
 #include <passes/restir/pairwise.h>
 #include <passes/restir/paths.h>
@@ -18,6 +19,9 @@ struct SpatialReuse final : Pass {
                                    "neighbours are these partners instead of random ones: spatial_paired_reuse shares the shifts between them, here each pixel "
                                    "makes its own, to compare", Need::optional};
     In<Paths>              paths{this, "paths", "a path of each pixel"};
+    In<UvIndex>            uv{this, "uv",
+                              "by which reconnection vertices pass from level to level where neighbours see different ones of an instance (lod_select, mode "
+                              "stochastic, and initial_sampling, camera hits); without, such paths aren't reused", Need::optional};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
                                  "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section 6.3), "

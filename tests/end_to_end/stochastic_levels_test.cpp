@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Levels that are chosen ray by ray: how many rays see which, that all of a path see the same, whoever traces them, and that reuse keeps the mean.
+#include "render.h"
+#include "sheets.h"
+#include "shift_session.h"
+
+#include <framework/graph/runner.h>
+#include <framework/shaders/world/primary_hit.h>
+#include <framework/study/ensemble/ensemble.h>
+
+#include <cmath>
+
+namespace lodestir::test {
+namespace {
+
+/// Settings of lod_select by which every instance of two levels is at l of them, whatever its depth.
+OrderedJson atLevel(double l) {
+    // Far before depthNear l is -2, and the bias is the rest.
+    return {{"mode", "stochastic"}, {"curve", "linear"}, {"depthNear", 1e5}, {"depthFar", 2e5}, {"transition", 1}, {"bias", l + 2}};
+}
+OrderedJson lodNode(double l) { return node("lod_select", OrderedJson::object(), atLevel(l)); }
+
+class StochasticLevels : public Sheets {
+protected:
+    /// The same plane cut in two ways, into 128 and into 32 triangles.
+    Path twoCuts() { return write("cuts", {{.cells = 8, .place = flat}, {.cells = 4, .place = flat}}, OrderedJson::array()); }
+    static bool isCoarse(const PrimaryHit& hit) { return hit.primitive != NONE && hit.primitive >= 128; }
+};
+
+// Eight steps: of the rays that meet the instance so many eighths see the coarser level, none outside a transition, and each frame others.
+TEST_F(StochasticLevels, ShareOfRays) {
+    Frames frames(twoCuts(), {64, 36}, {{"lod", lodNode(0)}, {"hits", hitsNode()}}, {"hits.hits"});
+    for (const char* numbers : {"shared", "each"}) {
+        frames.set("lod.numbers", Json(numbers));
+        for (const auto& [l, eighths] : std::vector<std::pair<double, int>>{{0.05, 0}, {0.2, 1}, {0.5, 4}, {0.8, 7}, {0.95, 8}}) {
+            frames.set("lod.bias", Json(l + 2));
+            std::size_t coarse = 0, all = 0, changed = 0;
+            std::vector<PrimaryHit> last;
+            for (int frame = 0; frame < 4; ++frame) {
+                frames.run();
+                const std::vector<PrimaryHit> hits = frames.records<PrimaryHit>("hits.hits");
+                for (std::size_t i = 0; i < hits.size(); ++i) {
+                    all += hits[i].primitive != NONE;
+                    coarse += isCoarse(hits[i]);
+                    changed += frame > 0 && isCoarse(hits[i]) != isCoarse(last[i]);
+                }
+                last = hits;
+            }
+            ASSERT_GT(all, 1000u);
+            const auto expectShare = [&](std::size_t count, double of, double share, const char* what) {
+                EXPECT_NEAR(double(count) / of, share, 4 * std::sqrt(share * (1 - share) / of)) << what << ", " << numbers << ", l = " << l;
+            };
+            const double share = eighths / 8.0;
+            expectShare(coarse, double(all), share, "rays that see the coarser level");
+            expectShare(changed, 0.75 * double(all), 2 * share * (1 - share), "pixels that see another level than a frame ago");
+        }
+    }
+}
+
+// Numbers belong to rays, not to those who trace them: every body finds the same hits, in steps that masks can hold and in others.
+TEST_F(StochasticLevels, BodiesAgree) {
+    const Path scene = write("bowls", {{.cells = 20, .place = bowl}, {.cells = 6, .place = bowl}}, OrderedJson::array());
+    for (const auto& [numbers, steps] : std::vector<std::pair<const char*, int>>{{"shared", 8}, {"shared", 5}, {"each", 8}}) {
+        OrderedJson lod = lodNode(0.5);
+        lod["set"].update(OrderedJson{{"numbers", numbers}, {"steps", steps}, {"bias", 2.3}});
+        const OrderedJson graph = {{"format", 1},
+                                   {"scene", scene.string()},
+                                   {"frame", {{"size", {64, 36}}, {"seed", 1}}},
+                                   {"passes", {{"lod", lod}, {"trace", node("path_tracer", OrderedJson::object(), {{"spp", 4}, {"bounces", 2}})}}},
+                                   {"show", "trace"}};
+        writeFile(folder.path / "graph.json", graph.dump(2));
+        const auto frames = [&](const std::string& body) { return render(folder.path / "graph.json", "trace", 2, {}, body); };
+        const std::vector<ImageData> best = frames("");
+        for (const char* body : {"lane", "ray_query"}) {
+            if (body == std::string("ray_query") && !sharedDevice()->facts().rayQuery) continue;
+            const std::vector<ImageData> other = frames(body);
+            std::size_t differ = 0;
+            for (std::size_t i = 0; i < best[1].values.size(); ++i)
+                differ += std::abs(best[1].values[i] - other[1].values[i]) > 1e-3f * (1 + std::abs(best[1].values[i]));
+            EXPECT_LE(differ, best[1].values.size() / 200) << body << ", " << numbers << ", " << steps << " steps";
+        }
+    }
+}
+
+// A plane whose two levels lie one over the other, under a sky of radiance 1: neither shadows itself, so the picture is that of either. Where each ray has a
+// number of its own, the share b of the camera rays meets the lower, coarser level, and of the rays from there 1 - b end under the upper one.
+TEST_F(StochasticLevels, NoFalseShadows) {
+    const auto plane = [](double y) { return [y](glm::dvec2 p) { return glm::dvec3(400 * p.x - 200, y, 400 * p.y - 200); }; };
+    writeLevels(folder.path, "plane", {{.cells = 4, .place = plane(0)}, {.cells = 2, .place = plane(-0.2)}});
+    const Path scene = write("plane", {"plane"}, OrderedJson::array(),
+                             {{"environment", {{"type", "constant"}, {"color", {1, 1, 1}}}},
+                              {"lights", OrderedJson::array()},
+                              {"camera", {{"position", {0, 3, 0.01}}, {"target", {0, 0, 0}}, {"fovy", 20}}}});
+    Frames frames(scene, {64, 64}, {{"lod", lodNode(0)}, {"trace", node("path_tracer", OrderedJson::object(), {{"spp", 16}, {"bounces", 1}})}},
+                  {"trace.color"});
+    const auto mean = [&](double l) {
+        frames.set("lod.bias", Json(l + 2));
+        frames.restart(0, 1);
+        frames.run();
+        const ImageData image = frames.image("trace.color");
+        double sum = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) sum += image.at(x, y, 1);
+        return sum / (image.width * image.height);
+    };
+    for (const char* technique : {"both", "light", "bsdf"}) {
+        frames.set("trace.technique", Json(technique));
+        frames.set("trace.numbers", Json("path"));
+        const double settled = mean(0);
+        for (const auto& [l, share] : std::vector<std::pair<double, double>>{{0.2, 0.125}, {0.5, 0.5}, {0.8, 0.875}}) {
+            frames.set("trace.numbers", Json("path"));
+            EXPECT_NEAR(mean(l) / settled, 1, 1e-3) << technique << ", l = " << l;
+            frames.set("trace.numbers", Json("ray"));
+            EXPECT_NEAR(mean(l) / settled, 1 - share * (1 - share), 0.01) << technique << ", l = " << l;
+        }
+    }
+}
+
+/// Reuse of paths while instances dissolve, against path tracing.
+class DissolvingReuse : public Sheets, public testing::WithParamInterface<const char*> {};
+
+TEST_P(DissolvingReuse, KeepsTheMean) {
+    const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.25, 1, 0.1));
+    writeLevels(folder.path, "bowl", {{.cells = 20, .place = bowl}, {.cells = 5, .place = bowl, .normal = tilted}});
+    const Path scene = write("dissolving", {"bowl"}, OrderedJson::array());
+    const OrderedJson half = atLevel(0.5);
+    std::vector<Setting> lod;
+    for (const auto& [name, value] : half.items())
+        lod.push_back({"lod." + name, value.is_string() ? Json(value.get<std::string>()) : Json(value.get<double>())});
+    const auto graph = [&](const char* variant, std::vector<Setting> set) {
+        set.insert(set.end(), lod.begin(), lod.end());
+        return StudyGraph{.graph = sourceFolder / "graphs/stochastic_lod.json", .variant = variant, .set = std::move(set), .port = {}, .where = {}};
+    };
+    EnsembleJudge judge({.scene = scene,
+                         .size = {32, 18},
+                         .warmup = 3,
+                         .frame = 3,
+                         .runs = 32,
+                         .reference = graph("path tracing", {}),
+                         .referenceSamples = 1024,
+                         .device = sharedDevice()});
+    const EnsembleResult result = judge.judge(graph(GetParam(), {{"initial.candidates", Json(2)}, {"spatial.radius", Json(5)}}));
+    std::printf("%s: %+.2f %% +- %.2f %%\n", GetParam(), 100 * (result.energy[0] / result.referenceEnergy[0] - 1), 100 * result.halfWidth);
+    EXPECT_EQ(result.verdict, Verdict::unbiased) << result.reason;
+    EXPECT_LE(result.halfWidth, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(, DissolvingReuse, testing::Values("number per path", "number per pixel", "number per pixel, mapped"),
+                         [](const auto& form) {
+                             std::string name = form.param;
+                             std::erase_if(name, [](char c) { return c == ' ' || c == ','; });
+                             return name;
+                         });
+
+}  // namespace
+}  // namespace lodestir::test
