@@ -2,6 +2,7 @@
 // ambient_occlusion against openings whose cosine-weighted share is known. By Malley's construction that share is an area of the unit disk.
 #include "frames.h"
 #include "model.h"
+#include "program.h"
 
 #include <cmath>
 #include <numbers>
@@ -25,11 +26,11 @@ class AmbientOcclusion : public testing::Test {
 protected:
     /// What is open of a scene of these quads, pixel by pixel.
     ImageData open(const std::vector<Quad>& quads, const View& view, double radius, const OrderedJson& material = OrderedJson::object()) {
-        writeModel(folder_.path, "model", quads);
+        writeModel(folder_.path, "scene", quads);
         if (!material.empty()) {
-            OrderedJson model = OrderedJson::parse(readText(folder_.path / "model.gltf"));
+            OrderedJson model = OrderedJson::parse(readText(folder_.path / "scene.gltf"));
             model["materials"].back().update(material);
-            writeFile(folder_.path / "model.gltf", model.dump());
+            writeFile(folder_.path / "scene.gltf", model.dump());
         }
         writeScene(folder_.path, "scene", view, constantEnvironment(Point(1)));
         const OrderedJson passes = {

@@ -21,7 +21,7 @@ protected:
         return write("scene", {"fine", "plain"}, OrderedJson::array(),
                      {{"camera", {{"position", {0, 100, 0}}, {"target", {0, 0, 0}}, {"up", {0, 0, -1}}, {"fovy", 1.7}}}});
     }
-    static OrderedJson passes(const OrderedJson& more) {
+    static OrderedJson passes(const OrderedJson& more = OrderedJson::object()) {
         // The colours are asked of a World that shows the finest levels: the hits know better.
         OrderedJson in = {{"world", "scene.world"}, {"hits", "hits.hits"}};
         in.update(more);
@@ -36,7 +36,7 @@ protected:
 };
 
 TEST_F(LevelColors, AreThoseOfTheTrianglesHit) {
-    Frames frames(scene(), size, passes({}), {"levels.color"});
+    Frames frames(scene(), size, passes(), {"levels.color"});
     const std::array<glm::vec3, 4> colors{glm::vec3(1, 0, 0), {2 / 3.0f, 1, 0}, {0, 1, 2 / 3.0f}, {0, 0, 1}};
     for (int level = 0; level < 4; ++level) {
         SCOPED_TRACE(level);
@@ -63,7 +63,7 @@ TEST_F(LevelColors, AreDarkerWhereTheSurfaceTurnsAway) {
     // From 60 degrees off the vertical.
     const Path slanted = write("slanted", {"fine", "plain"}, OrderedJson::array(),
                                {{"camera", {{"position", {0, 50, 100 * std::sqrt(0.75)}}, {"target", {0, 0, 0}}, {"up", {0, 1, 0}}, {"fovy", 1.7}}}});
-    Frames frames(slanted, size, passes({}), {"levels.color"});
+    Frames frames(slanted, size, passes(), {"levels.color"});
     frames.set("levels.shading", Json(true));
     frames.run();
     const float expected = 0.25f + 0.75f * 0.5f;
