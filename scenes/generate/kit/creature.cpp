@@ -26,10 +26,10 @@ constexpr glm::vec3 eye(0.305f, 1.064f, 0.096f);
 
 struct Bone {
     std::vector<Station> axis;
-    float blend;              ///< metres over which its clay runs into what is there
-    glm::vec3 dorsal;         ///< the side on which plates lie
-    int columns;              ///< of plates, if they went all around
-    float reach;              ///< radians from the dorsal side, up to where there are plates
+    float blend;       ///< metres over which its clay runs into what is there
+    glm::vec3 dorsal;  ///< the side on which plates lie
+    int columns;       ///< of plates, if they went all around
+    float reach;       ///< radians from the dorsal side, up to where there are plates
 
     std::vector<float> rows{};  ///< of plates from the axis's start to each of its points; they are as long as the bone is wide
     glm::vec3 middle{0};        ///< of a sphere around it
@@ -39,11 +39,11 @@ struct Bone {
 /// What a place is to the bone that is nearest.
 struct Place {
     const Bone* bone = nullptr;
-    float gap = 1e3f;    ///< metres outside the bone
-    float row = 0;       ///< rows of plates from the axis's start
-    float around = 0;    ///< radians from the dorsal side
-    float plate = 0;     ///< metres of a row
-    float margin = 1e3f; ///< metres by which the next bone is farther; more than farMargin: whatever
+    float gap = 1e3f;     ///< metres outside the bone
+    float row = 0;        ///< rows of plates from the axis's start
+    float around = 0;     ///< radians from the dorsal side
+    float plate = 0;      ///< metres of a row
+    float margin = 1e3f;  ///< metres by which the next bone is farther; more than farMargin: whatever
 };
 
 constexpr float farMargin = 0.05f;  ///< metres: bones that are farther than the nearest by more don't count
@@ -118,9 +118,11 @@ std::vector<Bone> skeleton() {
 
 /// Claws and horns, from root to tip.
 std::vector<std::vector<Station>> hornAxes() {
-    std::vector<std::vector<Station>> horns{{{{0.425f, 0.975f, 0}, 0.030f}, {{0.455f, 1.035f, 0}, 0.024f}, {{0.474f, 1.090f, 0}, 0.014f}, {{0.476f, 1.135f, 0}, 0.004f}}};
+    std::vector<std::vector<Station>> horns{
+        {{{0.425f, 0.975f, 0}, 0.030f}, {{0.455f, 1.035f, 0}, 0.024f}, {{0.474f, 1.090f, 0}, 0.014f}, {{0.476f, 1.135f, 0}, 0.004f}}};
     const auto claw = [&](const glm::vec3& root, const glm::vec3& middle, const glm::vec3& tip, float radius) {
-        horns.push_back({{root, 0.8f * radius}, {middle, radius}, {glm::mix(middle, tip, 0.6f) + glm::vec3(0, 0.004f, 0), 0.7f * radius}, {tip, 0.15f * radius}});
+        horns.push_back(
+            {{root, 0.8f * radius}, {middle, radius}, {glm::mix(middle, tip, 0.6f) + glm::vec3(0, 0.004f, 0), 0.7f * radius}, {tip, 0.15f * radius}});
     };
     for (float side : {-1.0f, 1.0f}) {
         const auto at = [&](float x, float y, float z) { return glm::vec3(x, y, side * z); };
@@ -219,13 +221,16 @@ Plate plateAt(const Place& place) {
     return {};
 }
 
+bool isEar(const glm::vec3& p, const Place& place) { return p.y > 1.07f && p.x < 0.24f && place.gap > 0.030f; }
+
 /// What stands up from the clay and is large enough to be shape, metres.
 float relief(const glm::vec3& p, const Place& place) {
     // Where two bones meet plates would collide: skin is between them.
-    const float room = glm::smoothstep(0.004f, 0.030f, place.margin), inEye = glm::smoothstep(0.020f, 0.034f, glm::distance(glm::vec3(p.x, p.y, std::abs(p.z)), eye));
+    const float room = glm::smoothstep(0.004f, 0.030f, place.margin),
+                inEye = glm::smoothstep(0.020f, 0.034f, glm::distance(glm::vec3(p.x, p.y, std::abs(p.z)), eye));
     const Plate plate = plateAt(place);
     const Noise noise{91};
-    if (!plate.isThere) return -0.0035f * inEye * noise.ridged(p * glm::vec3(9, 24, 9), 2);
+    if (!plate.isThere || isEar(p, place)) return -0.0035f * inEye * noise.ridged(p * glm::vec3(9, 24, 9), 2);
     const float tall = std::min(0.24f * place.plate, 0.0150f);
     const float keel = std::max(1 - std::abs(plate.aside) * 5, 0.0f);
     const float face = 0.22f + 0.78f * plate.along / Plate::length + 0.16f * keel + 0.08f * (plate.worn - 0.5f);
@@ -256,7 +261,8 @@ Sculpture modelled() {
     for (float side : {-1.0f, 1.0f}) {
         const glm::vec3 at = eye * glm::vec3(1, 1, side);
         clay.blend = 0.020f;
-        clay.lump(at + glm::vec3(0.006f, 0.022f, side * 0.002f), glm::mat3(glm::vec3(0.036f, -0.010f, 0), glm::vec3(0.003f, 0.013f, 0), glm::vec3(0, 0, 0.020f)));
+        clay.lump(at + glm::vec3(0.006f, 0.022f, side * 0.002f),
+                  glm::mat3(glm::vec3(0.036f, -0.010f, 0), glm::vec3(0.003f, 0.013f, 0), glm::vec3(0, 0, 0.020f)));
         clay.blend = 0.004f;
         clay.lump(at, glm::mat3(0.0205f));
     }
@@ -288,7 +294,8 @@ Surface skinAt(const glm::vec3& p, const glm::vec3& n, const Noise& noise) {
     s.roughness = 0.62f + 0.12f * pores;
     s.height = 0.00055f * pores;
     // Mouth and nostrils are painted: pressed into the clay they would be charts of a few triangles, which no coarse level could keep.
-    const float lips = std::abs(p.y - 0.884f + 0.34f * (p.x - 0.455f)) + 0.002f * hue, nostril = glm::distance(glm::vec3(p.x, p.y, std::abs(p.z)), {0.517f, 0.928f, 0.019f});
+    const float lips = std::abs(p.y - 0.884f + 0.34f * (p.x - 0.455f)) + 0.002f * hue,
+                nostril = glm::distance(glm::vec3(p.x, p.y, std::abs(p.z)), {0.517f, 0.928f, 0.019f});
     const float deep = std::max(glm::smoothstep(0.0075f, 0.0025f, lips) * glm::smoothstep(0.365f, 0.385f, p.x), glm::smoothstep(0.0105f, 0.006f, nostril));
     s.color = glm::mix(s.color, glm::vec3(0.012f, 0.008f, 0.007f), head * deep);
     s.height -= 0.004f * head * deep;
@@ -317,13 +324,13 @@ Surface coat(const glm::vec3& p, const glm::vec3& n) {
     const Place place = placeOf(p);
     const Plate plate = plateAt(place);
     if (toEye < 0.0225f) {
-        s.color = glm::mix(glm::vec3(0.010f, 0.008f, 0.006f), glm::vec3(0.30f, 0.13f, 0.02f), glm::smoothstep(0.012f, 0.016f, glm::length(glm::vec2(p.x - eye.x - 0.004f, p.y - eye.y))));
+        s.color = glm::mix(glm::vec3(0.010f, 0.008f, 0.006f), glm::vec3(0.30f, 0.13f, 0.02f),
+                           glm::smoothstep(0.012f, 0.016f, glm::length(glm::vec2(p.x - eye.x - 0.004f, p.y - eye.y))));
         s.roughness = 0.06f;
     } else if (isHorn(p)) {
         s = hornAt(p, noise);
     } else {
-        const bool isEar = p.y > 1.07f && p.x < 0.24f && place.gap > 0.030f;
-        s = plate.isThere && place.margin > 0.008f && !isEar ? plateSurface(p, plate, noise) : skinAt(p, n, noise);
+        s = plate.isThere && place.margin > 0.008f && !isEar(p, place) ? plateSurface(p, plate, noise) : skinAt(p, n, noise);
     }
     return s;
 }

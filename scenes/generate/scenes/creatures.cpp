@@ -15,9 +15,9 @@ namespace lodestir::generate {
 namespace {
 
 constexpr int columns = 64, rows = 60;
-constexpr float spacing = 2;        ///< metres: tails and claws of neighbours don't meet
+constexpr float spacing = 2;  ///< metres: tails and claws of neighbours don't meet
 constexpr float halfGround = 150;
-constexpr float tileScale = 2;      ///< tiles of 1.6 m, so that they are still seen from above
+constexpr float tileScale = 2;  ///< tiles of 1.6 m, so that they are still seen from above
 
 void addCreatures(Glb& glb) {
     const int beast = glb.addMesh(creature(glb, "creature", 0.0064f));
