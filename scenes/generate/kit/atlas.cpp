@@ -20,7 +20,6 @@ namespace {
 
 constexpr int gutter = 6;          ///< least texels around a chart that are as its border is, so that filters find no other chart
 constexpr float steepest = 0.35f;  ///< cosine to its axis up to which a triangle may join its neighbours' chart
-constexpr int smallest = 40;       ///< triangles of a chart that is worth its gutter
 
 /// Axis 2k is +k, 2k + 1 is -k. right x up = axis, so that no chart is mirrored.
 glm::vec3 axisOf(int label) {
@@ -90,7 +89,7 @@ std::vector<int> labelled(const Triangles& triangles) {
 }
 
 /// Connected pieces of one label: the chart of each triangle. Those of a few triangles go to the neighbour with the longest border, if they face its way.
-std::vector<int> piecesOf(const Triangles& triangles, std::vector<int>& labels) {
+std::vector<int> piecesOf(const Triangles& triangles, std::vector<int>& labels, int smallest) {
     std::vector<int> pieces;
     for (int round = 0; round < 4; ++round) {
         pieces.assign(labels.size(), -1);
@@ -147,10 +146,10 @@ bool shelve(std::vector<Chart>& charts, float scale, int texels) {
 
 }  // namespace
 
-Mesh charted(const Mesh& mesh, int texels) {
+Mesh charted(const Mesh& mesh, int texels, int smallest) {
     const Triangles triangles = trianglesOf(mesh);
     std::vector<int> labels = labelled(triangles);
-    const std::vector<int> pieces = piecesOf(triangles, labels);
+    const std::vector<int> pieces = piecesOf(triangles, labels, smallest);
 
     std::vector<Chart> charts(size_t(*std::ranges::max_element(pieces) + 1));
     for (size_t t = 0; t < pieces.size(); ++t)

@@ -69,10 +69,10 @@ float Sculpture::distance(const glm::vec3& p, std::span<const Part> near) const 
 
 float Sculpture::distance(const glm::vec3& p) const { return distance(p, parts); }
 
-glm::vec3 Sculpture::slope(const glm::vec3& p, float step) const {
+glm::vec3 Sculpture::slope(const glm::vec3& p, std::span<const Part> near, float step) const {
     glm::vec3 g(0);
     for (const glm::vec3& corner : {glm::vec3(1, -1, -1), glm::vec3(-1, -1, 1), glm::vec3(-1, 1, -1), glm::vec3(1, 1, 1)})
-        g += corner * distance(p + step * corner);
+        g += corner * distance(p + step * corner, near);
     return g / (4 * step);
 }
 
@@ -106,6 +106,7 @@ Mesh Sculpture::mesh(float cell) const {
         for (int by = 0; by < blocks.y; ++by)
             for (int bx = 0; bx < blocks.x; ++bx) {
                 const glm::ivec3 first = glm::ivec3(bx, by, bz) * block;
+                const size_t firstVertex = mesh.vertices.size();
                 const glm::vec3 middle = low + cell * (glm::vec3(first) + 0.5f * block);
                 if (std::abs(distance(middle)) > overestimate * reach) continue;
                 near.clear();
@@ -139,15 +140,15 @@ Mesh Sculpture::mesh(float cell) const {
                                 }
                             if (count) vertexOf[first + c] = mesh.add({.position = low + cell * (glm::vec3(first) + sum / float(count))});
                         }
+                for (Vertex& v : std::span(mesh.vertices).subspan(firstVertex)) {
+                    for (int i = 0; i < 2; ++i) {  // Newton's method; never out of reach of the cell, or its neighbours would fold over it
+                        const glm::vec3 g = slope(v.position, near, 0.25f * cell);
+                        v.position -= g * std::clamp(distance(v.position, near) / std::max(glm::dot(g, g), 0.1f), -0.3f * cell, 0.3f * cell);
+                    }
+                    v.normal = glm::normalize(slope(v.position, near, 0.5f * cell));
+                }
             }
 
-    for (Vertex& v : mesh.vertices) {
-        for (int i = 0; i < 2; ++i) {  // Newton's method; never out of reach of the cell, or its neighbours would fold over it
-            const glm::vec3 g = slope(v.position, 0.25f * cell);
-            v.position -= g * std::clamp(distance(v.position) / std::max(glm::dot(g, g), 0.1f), -0.3f * cell, 0.3f * cell);
-        }
-        v.normal = glm::normalize(slope(v.position, 0.5f * cell));
-    }
     for (const Crossing& c : crossings) {
         // The four cells around the edge, counter-clockwise seen from its end.
         glm::ivec3 right(0), up(0);

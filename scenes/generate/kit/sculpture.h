@@ -54,7 +54,7 @@ private:
 
     void ellipsoid(const glm::vec3& centre, const glm::mat3& axes, bool isCarved);
     float distance(const glm::vec3& p, std::span<const Part> near) const;
-    glm::vec3 slope(const glm::vec3& p, float step) const;
+    glm::vec3 slope(const glm::vec3& p, std::span<const Part> near, float step) const;
 };
 
 }  // namespace lodestir::generate
