@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace lodestir::test {
@@ -118,8 +119,40 @@ TEST_F(StochasticLevels, NoFalseShadows) {
             EXPECT_NEAR(mean(l) / settled, 1, 1e-3) << technique << ", l = " << l;
             frames.set("trace.numbers", Json("ray"));
             EXPECT_NEAR(mean(l) / settled, 1 - share * (1 - share), 0.01) << technique << ", l = " << l;
+            // Rays that see the upper level first and the lower one farther on: those from the lower one end. Not where the former is nothing.
+            frames.set("trace.fineReach", Json(1e5));
+            EXPECT_NEAR(mean(l) / settled, 1 - share, 0.01) << technique << ", l = " << l;
+            frames.set("trace.fineReach", Json(1e-6));
+            EXPECT_NEAR(mean(l) / settled, 1, 1e-3) << technique << ", l = " << l;
+            frames.set("trace.fineReach", Json(0));
         }
     }
+}
+
+// Paths see one of two scenes, so that pictures blend: that of b is (1 - b) times the finer level's and b times the coarser one's.
+TEST_F(StochasticLevels, PicturesBlend) {
+    const auto floating = [](glm::dvec2 p) { return glm::dvec3(0.5, 1, 0.5) * bowl(p) + glm::dvec3(0, 0.5, 0); };
+    writeLevels(folder.path, "bowl", {{.cells = 20, .place = bowl}, {.cells = 5, .place = floating}});
+    Frames frames(write("blend", {"bowl"}, OrderedJson::array()), {64, 36},
+                  {{"lod", lodNode(0)}, {"trace", node("path_tracer", OrderedJson::object(), {{"spp", 256}})}}, {"trace.color"});
+    std::map<int, ImageData> images;
+    for (const int eighths : {0, 3, 8}) {
+        frames.set("lod.bias", Json(2 + (eighths + 0.5) / 9));
+        frames.run();
+        images[eighths] = frames.image("trace.color");
+    }
+    double difference = 0, apart = 0;
+    std::size_t values = 0;
+    for (std::size_t i = 0; i < images[0].values.size(); ++i) {
+        const double fine = images[0].values[i], coarse = images[8].values[i], between = coarse - fine;
+        if (std::abs(between) < 0.1) continue;  // where both show the same, but for noise
+        ++values;
+        apart += std::abs(between);
+        difference += (images[3].values[i] - (fine + 0.375 * between)) * (between > 0 ? 1 : -1);
+    }
+    std::printf("%zu values that differ, the blend off by %.4f of what they differ by\n", values, difference / apart);
+    EXPECT_GT(values, 500u);
+    EXPECT_NEAR(difference / apart, 0, 0.02);
 }
 
 // Reuse sees no shadows either: with any number all pixels of the two planes see the whole sky, so that the picture is that of one plane. Where paths keep
