@@ -21,8 +21,8 @@ struct PathTracer final : Pass {
     Param<int>             rouletteStart{this, "rouletteStart", 3, {1, 64}, "first scattering that roulette may end a path after"};
     FilmPlace              place{this};
     Param<Numbers>         numbers{this, "numbers", Numbers::path, {"path", "ray"},
-                                   "where rays choose levels (lod_select, mode stochastic): all of a path by one number; or each by its own, so that shadow rays "
-                                   "start inside of what they left, to see what the former is for"};
+                                   "where rays choose levels (lod_select, mode stochastic): all of a path by one number; or each by its own, so that shadow "
+                                   "rays start inside of what they left, to see what the former is for"};
     Param<float>           fineReach{this, "fineReach", 0, {0, 1e6f},
                                      "likewise: scene units up to where rays behind the first hit see the finer of two levels, all the coarser beyond; 0: by "
                                      "number"};

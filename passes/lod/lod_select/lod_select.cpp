@@ -22,10 +22,11 @@ struct LodSelect final : Pass {
     Out<Buffer<uint>>   triangles{this, "triangles", "of the levels shown, over all instances: 64 bits, the low word first", Count::fixed(2)};
     Out<Buffer<uint>>   bytes{this, "bytes", "that the levels shown take, each once: 64 bits, the low word first", Count::fixed(2)};
     Scratch<Buffer<uint>> shown{this, "shown", "how many instances show level l of mesh m, at m * LEVELS + l", Count::reserved()};
-    Param<Mode>         mode{this, "mode", Mode::scene, {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error", "depth", "stochastic"},
+    Param<Mode>         mode{this, "mode", Mode::scene,
+                     {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error", "depth", "stochastic"},
                      "how levels are chosen: as the scene file says; finest; one for all; by the scene file's schedule; by distance; the coarsest whose "
-                     "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost; by depth; by depth, and "
-                     "in between a share of the rays sees the next coarser one already"};
+                     "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost; by depth; "
+                     "by depth, and in between a share of the rays sees the next coarser one already"};
     Param<int>          level{this, "level", 0, {0, int(LEVELS) - 1}, "of fixed: what all instances show; the coarsest where a mesh has fewer"};
     Param<float>        pixelError{this, "pixelError", 0, {0, 1000}, "largest error on the screen, pixels; 0: the scene file's"};
     Param<float>        hysteresis{this, "hysteresis", 0.2f, {0, 0.9f},
@@ -42,7 +43,7 @@ struct LodSelect final : Pass {
     Param<float>        distance{this, "distance", 8, {0.01f, 1e6f},
                                  "up to where the finest level is shown, in radii of the mesh; each doubling shows the next level"};
     Param<Curve>        curve{this, "curve", Curve::log, {"log", "linear"},
-                              "of depth and stochastic: how levels follow the depth along the view between depthNear, where they leave the finest, and depthFar"};
+                              "of depth and stochastic: how levels follow the depth along the view from depthNear, where they leave the finest, to depthFar"};
     Param<float>        depthNear{this, "depthNear", 0.1f, {1e-6f, 1e6f}, "of depth and stochastic: radii of the scene"};
     Param<float>        depthFar{this, "depthFar", 2, {1e-6f, 1e6f},
                                  "of depth and stochastic: radii of the scene, where all levels of a mesh have been gone through"};
@@ -93,5 +94,5 @@ private:
     }
 };
 LODESTIR_PASS(LodSelect, "lod_select.comp",
-              "Chooses the level of detail of each instance: finest, fixed, scheduled, by distance or depth, by the error that a level makes on the screen, or by "
-              "that and the noise that a budget leaves; ray by ray while it passes from one to the next.")
+              "Chooses the level of detail of each instance: finest, fixed, scheduled, by distance or depth, by the error that a level makes on the screen, or "
+              "by that and the noise that a budget leaves; ray by ray while it passes from one to the next.")
