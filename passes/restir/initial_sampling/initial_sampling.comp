@@ -28,7 +28,8 @@ struct Path {
     uvec2 decisions;    // seed of the resampling
     bool known;         // the camera hit is
     PrimaryHit centre;  // of `hits`
-    uint trees;
+    uint trees;         // 0: the pixel is skipped
+    float chance;       // that it wasn't
 };
 
 #if HAS_hits && HAS_worldPrev
@@ -48,9 +49,15 @@ World pathWorld(World now, uint item) { return now; }
 void pathStart(inout Path p, World now, ivec2 pixel) {
     treesStart(p.tree);
     p.trees = uint(params.candidates);
+    p.chance = 1;
 #if HAS_hits
     p.centre = hits(pixelIndex(pixel));
     if (switchesLevels(now) && switched(now, p.centre)) p.trees = mostTrees();
+#endif
+#if HAS_rates
+    TraceRate rate = ratesPixels(pixelIndex(pixel));
+    if (params.skipped == skipped_roulette) p.chance = rate.chance;
+    if (rate.source != pixelIndex(pixel)) p.trees = 0;
 #endif
 }
 
@@ -89,13 +96,37 @@ bool pathStep(inout Path p, World w, Hit hit) {
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
 
+// What a pixel holds that has no tree. Whether it was skipped is no sample's doing: without roulette it has no confidence.
+void storeSkipped(Path p, ivec2 pixel) {
+    SampleHit start = SampleHit(PrimaryHit(NONE, NONE, vec2(0), vec2(0.5), vec2(0.5)), 0, vec2(0), TrianglePlace(vec2(0), vec2(0)), 0);
+#if HAS_hits
+    start.hit = p.centre;
+#endif
+    storePathsReservoirs(pixelIndex(pixel), emptyReservoir(params.skipped == skipped_roulette ? 1 : 0));
+    storePathsSamples(pixelIndex(pixel), start);
+}
+
 void pathEnd(Path p, ivec2 pixel) {
+    if (p.trees == 0) {
+        storeSkipped(p, pixel);
+        return;
+    }
     Reservoir r = treesReservoir(p.tree, p.trees);
+    r.W /= p.chance;
     setConfidence(r, float(p.trees) / float(params.candidates));
     PROBE_RESERVOIR(kept, r);
     storePathsReservoirs(pixelIndex(pixel), r);
     if (holdsPath(r)) storePathsSamples(pixelIndex(pixel), p.tree.keptHit);
     else storePathsSamples(pixelIndex(pixel), p.tree.first);
 }
+
+#if HAS_rates
+ivec2 pixelAt(ivec2 place) {
+    if (argument(0) == 0) return place;
+    uint i = ratesOrder(place.x);
+    return ivec2(i % frameSize().x, i / frameSize().x);
+}
+#define DRIVER_PIXEL pixelAt
+#endif
 
 #include "trace/driver.glsl"

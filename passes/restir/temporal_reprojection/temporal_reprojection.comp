@@ -40,7 +40,7 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.past = historyReservoirs(place(r.before));
     r.pastHit = historySamples(place(r.before));
     r.pastTarget = target(r.past);
-    r.confidence = cappedConfidence(confidence(r.past), historyCap(pixel) * confidence(r.own));
+    r.confidence = cappedConfidence(confidence(r.past), historyCap(pixel) * max(confidence(r.own), 1));  // 0: a pixel that was not traced keeps its history
     r.refresh = walksSuffix(w, last);
 }
 
