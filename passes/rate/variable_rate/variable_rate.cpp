@@ -45,10 +45,10 @@ struct VariableRate final : Pass {
     Param<float>               budget{this, "budget", 0.5f, {0.0625f, 1}, "uniform, budget: share of the pixels to be traced (uniform: besides those that have to be)"};
     Param<float>               detail{this, "detail", 0.5f, {0.01f, 10}, "quality, after: need from which on each pixel is traced; half of it: every second, and so on"};
     Param<Tile>                tile{this, "tile", Tile::sixteen, {"2x2", "8x8", "16x16"}, "pixels that get one rate, but for the axis"};
-    Param<Coarsest>            coarsest{this, "coarsest", Coarsest::quad, {"2x2", "4x4"}, "most pixels that share a path"};
+    Param<Coarsest>            coarsest{this, "coarsest", Coarsest::quad, {"2x2", "4x4"}, "most pixels that share a path; with tiles of 2x2: 2x2"};
     Param<Choice>              choice{this, "choice", Choice::random, {"cycle", "random"},
                          "which pixel of a block is traced: each in turn, from a random one on, or any. Where paths are weighed by the chance (initial_sampling.skipped "
-                         "roulette) and guides look at history, only random is unbiased"};
+                         "roulette) and guides look at history, only random is unbiased, and only then is a budget met that waiting pixels take part in"};
     Param<int>                 memoryFrames{this, "memoryFrames", 4, {1, 4}, "quality, after: frames whose finest rate counts"};
     Param<int>                 age{this, "age", 16, {1, 255}, "each pixel is traced once in so many frames at least"};
     Param<int>                 reach{this, "reach", 1, {0, 4},
