@@ -122,5 +122,5 @@ void main() {
         must = must || roughness < params.mirror;
     }
     storeCarried(i, past);
-    storeNeeds(i, PixelNeed(need, uint(must), luminanceBefore));
+    storeNeeds(i, PixelNeed(need, uint(must && params.forced), luminanceBefore));
 }

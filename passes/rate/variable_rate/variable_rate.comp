@@ -40,6 +40,7 @@ uint halfRate(uvec2 corner) {
 
 // The pixel of a block that is traced this frame.
 uvec2 chosen(uvec2 corner, uvec2 block) {
+    if (params.choice == choice_fixed) return corner;
     uint frame = params.choice == choice_cycle ? 0 : frameIndex() + 1;
     uint bits = randomBits3(resamplingSeed(corner, frame, runSeed(), passSalt()), 0, RANDOM_FREE + 1).x;
     uint turn = scaledIndex(bits, block.x * block.y);

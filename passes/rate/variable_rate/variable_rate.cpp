@@ -16,7 +16,7 @@ using namespace lodestir;
 enum class Manner { uniform, budget, quality, after };
 enum class Tile { two, eight, sixteen };
 enum class Coarsest { quad, four };
-enum class Choice { cycle, random };
+enum class Choice { cycle, random, fixed };
 
 struct VariableRate final : Pass {
     In<World>                  world{this, "world", "the scene"};
@@ -46,9 +46,12 @@ struct VariableRate final : Pass {
     Param<float>               detail{this, "detail", 0.5f, {0.01f, 10}, "quality, after: need from which on each pixel is traced; half of it: every second, and so on"};
     Param<Tile>                tile{this, "tile", Tile::sixteen, {"2x2", "8x8", "16x16"}, "pixels that get one rate, but for the axis"};
     Param<Coarsest>            coarsest{this, "coarsest", Coarsest::quad, {"2x2", "4x4"}, "most pixels that share a path; with tiles of 2x2: 2x2"};
-    Param<Choice>              choice{this, "choice", Choice::random, {"cycle", "random"},
-                         "which pixel of a block is traced: each in turn, from a random one on, or any. Where paths are weighed by the chance (initial_sampling.skipped "
+    Param<Choice>              choice{this, "choice", Choice::random, {"cycle", "random", "fixed"},
+                         "which pixel of a block is traced: each in turn, from a random one on; any; always its first, as in an image of lower resolution. Where paths are weighed by the chance (initial_sampling.skipped "
                          "roulette) and guides look at history, only random is unbiased, and only then is a budget met that waiting pixels take part in"};
+    Param<bool>                forced{this, "forced", true,
+                                      "pixels are traced whatever their rate that nothing else could fill: new ones, mirrors, what changed its level, what has no "
+                                      "two neighbours alike, what has waited for `age` frames"};
     Param<int>                 memoryFrames{this, "memoryFrames", 4, {1, 4}, "quality, after: frames whose finest rate counts"};
     Param<int>                 age{this, "age", 16, {1, 255}, "each pixel is traced once in so many frames at least"};
     Param<int>                 reach{this, "reach", 1, {0, 4},

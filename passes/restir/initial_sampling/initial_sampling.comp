@@ -21,6 +21,7 @@ uint drawnNumber(LightDraw d, uint candidate) { return lightNumber(d.seed, d.ver
 LightPoint drawnLight(World w, LightDraw d, uint candidate) { return lightPoint(w, drawnNumber(d, candidate)); }
 #endif
 
+#include "rate/walk.glsl"
 #include "restir/path_tree.glsl"
 
 struct Path {
@@ -55,9 +56,8 @@ void pathStart(inout Path p, World now, ivec2 pixel) {
     if (switchesLevels(now) && switched(now, p.centre)) p.trees = mostTrees();
 #endif
 #if HAS_rates
-    TraceRate rate = ratesPixels(pixelIndex(pixel));
-    if (params.skipped == skipped_roulette) p.chance = rate.chance;
-    if (rate.source != pixelIndex(pixel)) p.trees = 0;
+    if (params.skipped == skipped_roulette) p.chance = ratesPixels(pixelIndex(pixel)).chance;
+    if (isSkipped(pixel)) p.trees = 0;
 #endif
 }
 
@@ -119,14 +119,5 @@ void pathEnd(Path p, ivec2 pixel) {
     if (holdsPath(r)) storePathsSamples(pixelIndex(pixel), p.tree.keptHit);
     else storePathsSamples(pixelIndex(pixel), p.tree.first);
 }
-
-#if HAS_rates
-ivec2 pixelAt(ivec2 place) {
-    if (argument(0) == 0) return place;
-    uint i = ratesOrder(place.x);
-    return ivec2(i % frameSize().x, i / frameSize().x);
-}
-#define DRIVER_PIXEL pixelAt
-#endif
 
 #include "trace/driver.glsl"

@@ -72,7 +72,7 @@ struct InitialSampling final : Pass {
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
         const glm::uvec2 size = frame.size();
         const bool ordered = frame.isBound(rates) && compaction;
-        frame.dispatch(shader, ordered ? glm::uvec2(size.x * size.y, 1) : size, {ordered});
+        frame.dispatch(shader, ordered ? glm::uvec2(size.x * size.y, 1) : size);
         if (frame.isBound(rates) && skipped == Skipped::copy) frame.dispatch("copy_skipped.comp", size);
     }
 

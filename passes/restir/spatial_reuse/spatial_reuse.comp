@@ -2,6 +2,7 @@
 // Each neighbour costs two shifts: its path to this pixel, and this pixel's path to it, for the MIS weight of the own path.
 #version 460
 #include "pass.glsl"
+#include "rate/walk.glsl"
 #include "restir/pairwise.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
@@ -32,7 +33,8 @@ ivec2 neighbourOf(World w, ivec2 pixel, PixelView mine, uint i) {
 #else
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
 #endif
-    if (!inside(q)) return pixel;
+    if (!inFrame(q) || isSkipped(pixel)) return pixel;
+    q = standIn(q);
     return similarPixels(mine, pixelView(w, hits(place(q)))) ? q : pixel;
 }
 

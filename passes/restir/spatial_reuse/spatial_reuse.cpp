@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Paths of neighbours, shifted here.
 #include <framework/pass/pass.h>
+#include <passes/rate/rates.h>
 #include <passes/restir/pairing.h>
 #include <passes/restir/pairwise.h>
 #include <passes/restir/paths.h>
@@ -18,6 +19,8 @@ struct SpatialReuse final : Pass {
                                    "neighbours are these partners instead of random ones: spatial_paired_reuse shares the shifts between them, here each pixel "
                                    "makes its own, to compare", Need::optional};
     In<Paths>              paths{this, "paths", "a path of each pixel"};
+    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, for upsample; unwired: all",
+                                 Need::optional};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
                                  "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section 6.3), "
@@ -31,9 +34,10 @@ struct SpatialReuse final : Pass {
     PassThrough            off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
-        frame.reserve(between, rounds > 1 ? frame.size().x * frame.size().y : 0);
+        const glm::uvec2 size = frame.size(), extent = frame.isBound(rates) ? glm::uvec2(size.x * size.y, 1) : size;
+        frame.reserve(between, rounds > 1 ? size.x * size.y : 0);
         forRounds(std::uint32_t(rounds), [&](std::uint32_t round, std::uint32_t from, std::uint32_t to) {
-            frame.dispatch(shader, frame.size(), {round, from, to});
+            frame.dispatch(shader, extent, {round, from, to});
         });
     }
 };
