@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bundle by which passes are told which pixels to trace.
+// The bundle by which passes are told which pixels to trace, and how they walk them (rate/walk.glsl).
 #pragma once
 #include <framework/pass/bundle.h>
 #include <passes/rate/trace_rate.h>
@@ -12,5 +12,11 @@ struct Rates {
                                         bundled<uint>("order", "all pixels, tile by tile of 16x16, the traced ones of each tile first: lanes that walk them in this "
                                                                "order have the same to do")};
 };
+
+/// Of a dispatch that walks pixels in the order of the rates: one row. Images with more pixels than any device takes workgroups in a row are walked as they lie.
+inline glm::uvec2 walkExtent(glm::uvec2 size, bool ordered) {
+    constexpr std::uint32_t most = 64 * 65535;
+    return ordered && size.x * size.y <= most ? glm::uvec2(size.x * size.y, 1) : size;
+}
 
 }  // namespace lodestir

@@ -152,6 +152,77 @@ TEST(VariableRate, BudgetIsMetAndEachPixelHasItsTurn) {
         }
 }
 
+// If this fails, pixels wait for reuse that nothing can be reused for: what has come into sight, another level, a mirror.
+TEST(VariableRate, WhatNothingElseCouldFillIsTraced) {
+    OrderedJson passes = nodes(rateSet({{"manner", "uniform"}, {"budget", 0.25}, {"choice", "random"}}));
+    for (const char* pass : {"initial", "temporal", "spatial", "shade"}) passes.erase(pass);
+    const glm::uvec2 size(64, 36);
+    const auto share = [&](Frames& frames, const auto& isAsked) {  // of the pixels that are asked for, those that had to be traced and were
+        const auto rates = frames.records<TraceRate>("rate.rates.pixels");
+        int asked = 0, good = 0;
+        for (std::size_t i = 0; i < rates.size(); ++i) {
+            if (!isAsked(i)) continue;
+            ++asked;
+            good += rates[i].chance == 1 && traced(rates, i);
+        }
+        EXPECT_GT(asked, 20);
+        EXPECT_LT(good, int(rates.size())) << "not simply all";
+        return good / double(asked);
+    };
+    const auto instanceOf = [](Frames& frames) { return frames.records<PrimaryHit>("hits.hits"); };
+    passes["lod"] = {{"type", "lod_select"}};
+    passes["hits"]["in"]["worldPrev"] = "lod@prev";
+    Frames cube(sceneFile("cube"), size, passes, {"rate.rates.pixels", "hits.hits"});
+    cube.restart(38);
+    for (const int frame : {38, 39, 40}) {
+        cube.run();
+        const auto hits = instanceOf(cube);
+        const std::uint32_t instance = hits[size.x * (size.y / 2) + size.x / 2].instance;
+        const double found = share(cube, [&](std::size_t i) { return hits[i].primitive != NONE && hits[i].instance == instance; });
+        if (frame == 39) EXPECT_LT(found, 0.8) << "no switch yet";
+        else EXPECT_EQ(found, 1) << frame;
+    }
+    passes.erase("lod");
+    passes["hits"]["in"]["worldPrev"] = "scene@prev";
+    const glm::uvec2 wide(96, 54);
+    Frames moving(sceneFile("colonnade"), wide, passes, {"rate.rates.pixels", "hits.motion"});
+    moving.restart(38);
+    moving.run(3);
+    const ImageData motion = moving.image("hits.motion");
+    const auto comesIn = [&](std::size_t i) {
+        const int x = int(i % wide.x), y = int(i / wide.x);
+        const double fromX = std::floor(x + 0.5 + motion.at(x, y, 0)), fromY = std::floor(y + 0.5 + motion.at(x, y, 1));
+        return fromX < 0 || fromY < 0 || fromX >= double(wide.x) || fromY >= double(wide.y);
+    };
+    EXPECT_EQ(share(moving, comesIn), 1);
+}
+
+// Normals as colours: what is filled has its own pixel's where the surface is flat, so that nothing comes from other surfaces.
+TEST(VariableRate, UpsamplingStaysOnTheSurface) {
+    OrderedJson passes = nodes(rateSet({{"budget", 0.25}, {"choice", "fixed"}, {"forced", false}}));
+    for (const char* pass : {"initial", "temporal", "spatial", "shade"}) passes.erase(pass);
+    passes["whole"] = node("upsample", {{"color", "hits.normal"}, {"rates", "rate"}, {"depths", "hits.depth"}, {"normals", "hits.normal"}});
+    Frames frames(sceneFile("cornell"), {75, 60}, passes, {"whole.color", "hits.normal", "rate.rates.pixels"});
+    frames.run(2);
+    const ImageData whole = frames.image("whole.color"), normal = frames.image("hits.normal");
+    const auto rates = frames.records<TraceRate>("rate.rates.pixels");
+    int filled = 0, own = 0;
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 75; ++x) {
+            double difference = 0;
+            for (int c = 0; c < 3; ++c) difference += std::abs(whole.at(x, y, c) - normal.at(x, y, c));
+            if (traced(rates, std::size_t(y * 75 + x))) {
+                EXPECT_EQ(x % 2 + y % 2, 0);
+                EXPECT_EQ(difference, 0);
+                continue;
+            }
+            ++filled;
+            own += difference < 0.01;
+        }
+    EXPECT_GT(filled, 3000);
+    EXPECT_GT(own, 0.98 * filled);
+}
+
 // Where reuse is off and nothing is traced for a while, reservoirs without confidence fill most of the image; each pass has to bear any mixture of them.
 TEST(VariableRate, PassesBearPixelsThatHoldNothing) {
     const TemporaryFolder temporary;

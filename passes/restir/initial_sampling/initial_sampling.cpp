@@ -70,10 +70,8 @@ struct InitialSampling final : Pass {
                                 std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique)),
                                 std::uint32_t(camera == CameraSample::hits)};
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
-        const glm::uvec2 size = frame.size();
-        const bool ordered = frame.isBound(rates) && compaction;
-        frame.dispatch(shader, ordered ? glm::uvec2(size.x * size.y, 1) : size);
-        if (frame.isBound(rates) && skipped == Skipped::copy) frame.dispatch("copy_skipped.comp", size);
+        frame.dispatch(shader, walkExtent(frame.size(), frame.isBound(rates) && compaction));
+        if (frame.isBound(rates) && skipped == Skipped::copy) frame.dispatch("copy_skipped.comp", frame.size());
     }
 
 private:

@@ -34,7 +34,7 @@ struct SpatialReuse final : Pass {
     PassThrough            off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
-        const glm::uvec2 size = frame.size(), extent = frame.isBound(rates) ? glm::uvec2(size.x * size.y, 1) : size;
+        const glm::uvec2 size = frame.size(), extent = walkExtent(size, frame.isBound(rates));
         frame.reserve(between, rounds > 1 ? size.x * size.y : 0);
         forRounds(std::uint32_t(rounds), [&](std::uint32_t round, std::uint32_t from, std::uint32_t to) {
             frame.dispatch(shader, extent, {round, from, to});

@@ -31,7 +31,7 @@ struct TemporalReprojection final : Pass {
     PassThrough            off{this, paths, pathsOut};
     InPlace                over{this, paths, pathsOut};
 
-    void execute(Frame& frame) override { frame.dispatch(shader, frame.isBound(rates) ? glm::uvec2(frame.size().x * frame.size().y, 1) : frame.size()); }
+    void execute(Frame& frame) override { frame.dispatch(shader, walkExtent(frame.size(), frame.isBound(rates))); }
 };
 LODESTIR_PASS(TemporalReprojection, "temporal_reprojection.comp",
               "Resamples each pixel's path with the one that last frame held where the pixel was (ReSTIR PT's temporal reuse).")
