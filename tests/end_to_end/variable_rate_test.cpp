@@ -25,7 +25,7 @@ bool traced(const std::vector<TraceRate>& rates, std::size_t i) { return rates[i
 
 bool isFinite(const Reservoir& r) {
     const float confidence = confidenceOf(r);
-    return std::isfinite(r.W) && std::isfinite(confidence) && (r.W == 0 || std::isfinite(r.F.x + r.F.y + r.F.z + r.G + r.radiance.x + r.radiance.y + r.radiance.z));
+    return std::isfinite(r.W + confidence) && (r.W == 0 || std::isfinite(r.F.x + r.F.y + r.F.z + r.G + r.radiance.x + r.radiance.y + r.radiance.z));
 }
 
 // If this fails, a graph with rates is another technique even where every pixel is traced.

@@ -22,7 +22,8 @@ struct InitialSampling final : Pass {
     In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
     In<Buffer<TileLight>>  tiles{this, "tiles", "lights drawn beforehand, which vertices choose their candidates from instead of drawing each", Need::optional};
     In<Rates>              rates{this, "rates", "which pixels trace a tree (variable_rate); unwired: all", Need::optional};
-    Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
+    Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, more where switchCandidates are taken, 0 where `rates` leave the "
+                                 "pixel out (but see `skipped`)", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
     Param<int>             bounces{this, "bounces", 4, {0, 30}, "most scatterings of a path; 1 is direct light only"};
     Param<int>             segmentsMin{this, "segmentsMin", 1, {1, 31},
@@ -48,7 +49,8 @@ struct InitialSampling final : Pass {
                                    "others count by the inverse of their chance (unbiased for whatever rates); the path of the pixel that stands for its block "
                                    "(biased)"};
     Param<bool>            compaction{this, "compaction", true,
-                                      "with `rates`: lanes walk traced pixels that are near each other, instead of waiting for those between; the result is the "
+                                      "with `rates`: lanes walk traced pixels that are near each other, instead of waiting for those between; the result is "
+                                      "the "
                                       "same"};
     Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes at a connection"};
     Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "criteria distance: least length of a connection, scene units"};

@@ -19,7 +19,8 @@ struct SpatialReuse final : Pass {
                                    "neighbours are these partners instead of random ones: spatial_paired_reuse shares the shifts between them, here each pixel "
                                    "makes its own, to compare", Need::optional};
     In<Paths>              paths{this, "paths", "a path of each pixel"};
-    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, for upsample; unwired: all",
+    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, "
+                                 "for upsample; unwired: all",
                                  Need::optional};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",

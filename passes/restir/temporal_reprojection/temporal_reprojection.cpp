@@ -19,7 +19,8 @@ struct TemporalReprojection final : Pass {
     In<ShiftRules>         rules{this, "rules", "of the pass that made the paths"};
     In<Paths>              paths{this, "paths", "this frame's path of each pixel"};
     In<Paths>              history{this, "history", "last frame's path of each pixel, after all reuse"};
-    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, for upsample; unwired: all",
+    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, "
+                                 "for upsample; unwired: all",
                                  Need::optional};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
