@@ -230,7 +230,8 @@ TEST(VariableRate, PassesBearPixelsThatHoldNothing) {
     for (auto& [model, value] : dark["models"].items()) value["file"] = (sceneFolder() / value["file"].get<std::string>()).string();
     dark["environment"] = {{"type", "constant"}, {"color", {0, 0, 0}}, {"strength", 0}};
     writeFile(temporary.path / "dark.json", dark.dump());
-    OrderedJson passes = nodes({{"rate", {{"set", {{"budget", 0.0625}, {"coarsest", "4x4"}, {"age", 255}, {"mirror", 0}, {"edges", 0}}}}}});
+    OrderedJson passes = nodes({{"rate", {{"set", {{"budget", 0.0625}, {"coarsest", "4x4"}, {"age", 255}, {"mirror", 0}, {"edges", 0}}}}},
+                                {"initial", {{"set", {{"skipped", "absent"}}}}}});
     passes["pairing"] = node("pairing_textures", OrderedJson::object(), {{"radius", 4}});
     passes["splat"] = node("temporal_splat", pathsOf("initial", "paired"), {{"cap", 0}});
     passes["paired"] = node("spatial_paired_reuse", pathsOf("splat"));
