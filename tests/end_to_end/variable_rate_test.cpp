@@ -152,6 +152,33 @@ TEST(VariableRate, BudgetIsMetAndEachPixelHasItsTurn) {
         }
 }
 
+// If this fails, a rate hangs on one frame alone, or a frame's rate isn't the next one's where rates are computed after tracing. Nothing moves and guides see
+// surfaces alone, so that each frame decides the same.
+TEST(VariableRate, TheFinestOfFourFramesCounts) {
+    OrderedJson passes = nodes(rateSet({{"manner", "quality"}, {"tile", "8x8"}, {"forced", false}}));
+    for (const char* pass : {"initial", "temporal", "spatial", "shade"}) passes.erase(pass);
+    Frames frames(sceneFile("ensemble_diffuse"), {128, 72}, passes, {"rate.rates.pixels"});
+    const auto chances = [&](const char* manner, int memory, int frame) {
+        frames.set("rate.manner", Json(manner));
+        frames.set("rate.memoryFrames", Json(memory));
+        frames.restart(0);
+        frames.run(frame + 1);
+        std::vector<float> values;
+        for (const TraceRate& rate : frames.records<TraceRate>("rate.rates.pixels")) values.push_back(rate.chance);
+        return values;
+    };
+    const std::vector<float> decided = chances("quality", 1, 0), all(decided.size(), 1.0f);
+    EXPECT_GT(std::ranges::count(decided, 1.0f), 100);
+    EXPECT_GT(std::ranges::count(decided, 0.25f), 100);
+    EXPECT_TRUE(chances("quality", 1, 3) == decided);
+    EXPECT_TRUE(chances("quality", 4, 2) == all) << "of the frame before the first nothing is known";
+    EXPECT_TRUE(chances("quality", 4, 3) == decided);
+    EXPECT_TRUE(chances("after", 1, 0) == all);
+    EXPECT_TRUE(chances("after", 1, 1) == decided);
+    EXPECT_TRUE(chances("after", 4, 3) == all);
+    EXPECT_TRUE(chances("after", 4, 4) == decided);
+}
+
 // If this fails, pixels wait for reuse that nothing can be reused for: what has come into sight, another level, a mirror.
 TEST(VariableRate, WhatNothingElseCouldFillIsTraced) {
     OrderedJson passes = nodes(rateSet({{"manner", "uniform"}, {"budget", 0.25}, {"choice", "random"}}));
