@@ -8,7 +8,8 @@ float historyCap(ivec2 p) {
 #if HAS_duplication
     ivec2 before = pixelBefore(p, motion(p));
     // Lin et al. 2026, ReSTIR PT Enhanced, section 5.
-    if (historyValid() && inside(before)) return mix(params.cap, min(params.leastCap, params.cap), pow(duplication(before), params.alpha));
+    bool known = historyValid() && all(lessThan(uvec2(before), frameSize()));
+    if (known) return mix(params.cap, min(params.leastCap, params.cap), pow(duplication(before), params.alpha));
 #endif
     return params.cap;
 }

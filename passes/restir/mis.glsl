@@ -21,7 +21,7 @@ float balanceMis(float mine, float others) { return mine > 0.0 ? 1.0 / (1.0 + ot
 /// Pairwise MIS: the canonical sample is compared with one neighbour at a time, so that K neighbours cost 2 K shifts, not K (K + 1).
 /// Confidences enter as in Wyman et al. 2023, A Gentle Introduction to ReSTIR, Eq. 7.8.
 struct PairwiseMis {
-    float canonical;   // confidence of the canonical sample, > 0
+    float canonical;   // confidence of the canonical sample; 0: nobody has tried to make one, and its share is lost
     float neighbours;  // S: sum over all valid neighbours, with failed shifts or not
     float total;       // divides a neighbour's confidence: S, or C = S + canonical
     float start;       // share the canonical sample has before any comparison

@@ -52,6 +52,16 @@ void main() {
     EXPECT_NEAR(defensiveSum, 1.0, 1e-5);
     EXPECT_TRUE(defensiveCanonical >= canonical / (canonical + S) - 1e-6);
     if (S == 0.0) EXPECT_EQ(vec2(plainCanonical, defensiveCanonical), vec2(1.0));
+    // Nobody has tried to make a canonical sample: neighbours share what they can make, and nothing divides by zero.
+    plain = pairwiseMis(0.0, S);
+    defensive = defensivePairwiseMis(0.0, S);
+    for (uint i = 0u; i < count; ++i) {
+        float share = c[i] > 0.0 && pHatFrom[i] > 0.0 ? c[i] / S : 0.0;
+        EXPECT_NEAR(neighbourMis(plain, c[i], pHat, pHatFrom[i]), share, 1e-6);
+        EXPECT_NEAR(neighbourMis(defensive, c[i], pHat, pHatFrom[i]), share, 1e-6);
+        EXPECT_NEAR(canonicalMis(plain, c[i], pHat, pHatFrom[i]), c[i] > 0.0 && pHatFrom[i] == 0.0 ? c[i] / S : 0.0, 1e-6);
+    }
+    EXPECT_EQ(vec2(plain.start, defensive.start), vec2(S > 0.0 ? 0.0 : 1.0));
     if (id > 0u) return;
     // Known answers: confidences 2 (canonical) and 3, 1; targets 6 and 1, 4. Plain: 3/4 * 4 / (4 + 12), 1/4 * 16 / (16 + 12).
     plain = pairwiseMis(2.0, 4.0);

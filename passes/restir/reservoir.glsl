@@ -33,7 +33,7 @@ PathShape unpackShape(uint bits) {
 float confidence(Reservoir r) { return unpackHalf2x16(r.shape >> SHAPE_CONFIDENCE).x; }
 void setConfidence(inout Reservoir r, float M) { r.shape = packShape(unpackShape(r.shape), M); }
 
-/// No path, but a confidence: a pixel that found no light knows as much as one that did.
+/// No path, but a confidence: a pixel that found no light knows as much as one that did. M = 0: it has not looked, and counts nowhere.
 Reservoir emptyReservoir(float M) {
     return Reservoir(uvec2(0), 0.0, packShape(PathShape(0u, 0u, false, 0u, 0u, 0u), M), vec3(0.0), 0.0, 0u, 0u, uvec2(0), vec3(0.0), 1.0);
 }

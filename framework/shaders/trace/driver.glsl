@@ -17,6 +17,8 @@
 // subgroup walks in step: its paths alternate between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both
 // lanes that go their own way and lanes that start their next path early).
 //
+// It may define DRIVER_PIXEL(place), the pixel that stands at a place of the dispatch, where pixels are walked in another order.
+//
 // pass.glsl gives `push` (base/frame.h) and countRays.
 #include "trace/trace.glsl"
 
@@ -53,6 +55,9 @@ uint pathNumber(Path path, World w, ivec2 pixel) { return numberOfPixel(w, pixel
 
 void driverWalk(ivec2 pixel) {
     bool inside = all(lessThan(uvec2(pixel), push.extent));
+#ifdef DRIVER_PIXEL
+    if (inside) pixel = DRIVER_PIXEL(pixel);
+#endif
     Path path;
     World now = world();
     uint items = pathItems(now);

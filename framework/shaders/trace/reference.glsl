@@ -35,8 +35,8 @@ vec3 pointToGrid(vec4 x, vec4 y, vec4 z, vec3 point) {
 }
 vec3 directionToGrid(vec4 x, vec4 y, vec4 z, vec3 d) { return vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d)); }
 
-// The root that an instance shows: its level is read where it is entered, so a switch of levels rebuilds nothing. Without triangles, or beyond all levels (which is how
-// passes hide an instance): straight back.
+// The root that an instance shows: its level is read where it is entered, so a switch of levels rebuilds nothing. Without triangles, or beyond all levels
+// (which is how passes hide an instance): straight back.
 uint rootOf(World w, uint mesh, uint level) {
     uint root = REF_NONE;
     if (level < LEVELS) root = w.roots.at[mesh * LEVELS + level];

@@ -21,6 +21,7 @@ uint drawnNumber(LightDraw d, uint candidate) { return lightNumber(d.seed, d.ver
 LightPoint drawnLight(World w, LightDraw d, uint candidate) { return lightPoint(w, drawnNumber(d, candidate)); }
 #endif
 
+#include "rate/walk.glsl"
 #include "restir/path_tree.glsl"
 
 struct Path {
@@ -28,7 +29,8 @@ struct Path {
     uvec2 decisions;    // seed of the resampling
     bool known;         // the camera hit is
     PrimaryHit centre;  // of `hits`
-    uint trees;
+    uint trees;         // 0: the pixel is skipped
+    float chance;       // that it wasn't
 };
 
 #if HAS_hits && HAS_worldPrev
@@ -48,9 +50,14 @@ World pathWorld(World now, uint item) { return now; }
 void pathStart(inout Path p, World now, ivec2 pixel) {
     treesStart(p.tree);
     p.trees = uint(params.candidates);
+    p.chance = 1;
 #if HAS_hits
     p.centre = hits(pixelIndex(pixel));
     if (switchesLevels(now) && switched(now, p.centre)) p.trees = mostTrees();
+#endif
+#if HAS_rates
+    if (params.skipped == skipped_roulette) p.chance = ratesPixels(pixelIndex(pixel)).chance;
+    if (isSkipped(pixel)) p.trees = 0;
 #endif
 }
 
@@ -92,8 +99,23 @@ uint pathNumber(Path p, World w, ivec2 pixel) { return pathNumber(rules(), w, pi
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
 
+// What a pixel holds that has no tree. Whether it was skipped is no sample's doing: without roulette it has no confidence.
+void storeSkipped(Path p, ivec2 pixel) {
+    SampleHit start = SampleHit(PrimaryHit(NONE, NONE, vec2(0), vec2(0.5), vec2(0.5)), 0, vec2(0), TrianglePlace(vec2(0), vec2(0)), 0);
+#if HAS_hits
+    start.hit = p.centre;
+#endif
+    storePathsReservoirs(pixelIndex(pixel), emptyReservoir(params.skipped == skipped_roulette ? 1 : 0));
+    storePathsSamples(pixelIndex(pixel), start);
+}
+
 void pathEnd(Path p, ivec2 pixel) {
+    if (p.trees == 0) {
+        storeSkipped(p, pixel);
+        return;
+    }
     Reservoir r = treesReservoir(p.tree, p.trees);
+    r.W /= p.chance;
     setConfidence(r, float(p.trees) / float(params.candidates));
     PROBE_RESERVOIR(kept, r);
     storePathsReservoirs(pixelIndex(pixel), r);

@@ -3,6 +3,7 @@
 #include <framework/pass/pass.h>
 #include <framework/pass/scene.h>
 #include <passes/basic/light_technique.h>
+#include <passes/rate/rates.h>
 #include <passes/restir/light_tiles.h>
 #include <passes/restir/paths.h>
 #include <passes/restir/rules.h>
@@ -13,13 +14,16 @@ using namespace lodestir;
 
 enum class Criteria { distance, footprint };
 enum class CameraSample { path, hits };
+enum class Skipped { absent, roulette, copy };
 
 struct InitialSampling final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<Buffer<PrimaryHit>> hits{this, "hits", "camera hits: where paths begin, if camera says so", Need::optional};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene, which tells where levels have switched", Need::optional};
     In<Buffer<TileLight>>  tiles{this, "tiles", "lights drawn beforehand, which vertices choose their candidates from instead of drawing each", Need::optional};
-    Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, or more where switchCandidates are taken", Count::perPixel()};
+    In<Rates>              rates{this, "rates", "which pixels trace a tree (variable_rate); unwired: all", Need::optional};
+    Out<Paths>             paths{this, "paths", "one of each pixel's tree; confidence 1, more where switchCandidates are taken, 0 where `rates` leave the "
+                                 "pixel out (but see `skipped`)", Count::perPixel()};
     Out<ShiftRules>        rules{this, "rules", "what passes that shift these paths have to agree on"};
     Param<int>             bounces{this, "bounces", 4, {0, 30}, "most scatterings of a path; 1 is direct light only"};
     Param<int>             segmentsMin{this, "segmentsMin", 1, {1, 31},
@@ -39,6 +43,14 @@ struct InitialSampling final : Pass {
     Param<Criteria>        criteria{this, "criteria", Criteria::distance, {"distance", "footprint"},
                                     "which vertices may be connected: roughness at both ends and a least length, or roughness before the connection and "
                                     "footprints of its directions against the pixel's (Lin et al. 2026, Eq. 5)"};
+    Param<Skipped>         skipped{this, "skipped", Skipped::absent, {"absent", "roulette", "copy"},
+                                   "what a pixel holds that traces no tree, with `rates`: nothing, without confidence, so that reuse alone fills it (unbiased "
+                                   "where reuse can find all of its paths, and the rates hang on no path); nothing, but as much confidence as any, while the "
+                                   "others count by the inverse of their chance (unbiased for whatever rates); the path of the pixel that stands for its block "
+                                   "(biased)"};
+    Param<bool>            compaction{this, "compaction", true,
+                                      "with `rates`: lanes walk traced pixels that are near each other, instead of waiting for those between; the result is "
+                                      "the same"};
     Param<float>           roughness{this, "roughness", 0.2f, {0, 1}, "least perceptual roughness of the lobes at a connection"};
     Param<float>           distance{this, "distance", 0.1f, {0, 1e6f}, "criteria distance: least length of a connection, scene units"};
     Param<float>           distanceShare{this, "distanceShare", 0, {0, 1},
@@ -59,7 +71,8 @@ struct InitialSampling final : Pass {
                                 std::uint32_t(int(lightCandidates)), std::uint32_t(Technique(found.technique)),
                                 std::uint32_t(camera == CameraSample::hits)};
         frame.provide(rules, std::as_bytes(std::span(&agreed, 1)), nullptr);
-        frame.dispatch(shader, frame.size());
+        frame.dispatch(shader, walkExtent(frame.size(), frame.isBound(rates) && compaction));
+        if (frame.isBound(rates) && skipped == Skipped::copy) frame.dispatch("copy_skipped.comp", frame.size());
     }
 
 private:

@@ -5,6 +5,7 @@
 #if HAS_uv
 #include "lod/path_mapping.glsl"
 #endif
+#include "rate/walk.glsl"
 #include "restir/pairwise.glsl"
 #include "restir/pixel_levels.glsl"
 #include "restir/ris.glsl"
@@ -36,7 +37,8 @@ ivec2 neighbourOf(World w, ivec2 pixel, PixelView mine, uint i) {
 #else
     ivec2 q = pixelInDisk(pixel, params.radius, random2(decisions(pixel), i, RANDOM_FREE));
 #endif
-    if (!inside(q)) return pixel;
+    if (!inFrame(q) || isSkipped(pixel)) return pixel;
+    q = standIn(q);
     return similarPixels(mine, pixelView(w, hits(place(q)))) ? q : pixel;
 }
 

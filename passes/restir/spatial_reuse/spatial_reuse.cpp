@@ -2,6 +2,7 @@
 // Paths of neighbours, shifted here.
 #include <framework/pass/pass.h>
 #include <passes/lod/uv_index.h>
+#include <passes/rate/rates.h>
 #include <passes/restir/pairing.h>
 #include <passes/restir/pairwise.h>
 #include <passes/restir/paths.h>
@@ -22,6 +23,9 @@ struct SpatialReuse final : Pass {
     In<UvIndex>            uv{this, "uv",
                               "by which reconnection vertices pass from level to level where neighbours see different ones of an instance (lod_select, mode "
                               "stochastic, and initial_sampling, camera hits); without, such paths aren't reused", Need::optional};
+    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, "
+                                 "for upsample; unwired: all",
+                                 Need::optional};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
                                  "radiance from the weights of all candidates of the last round instead of the kept one's (Lin et al. 2026, section 6.3), "
@@ -35,9 +39,10 @@ struct SpatialReuse final : Pass {
     PassThrough            off{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
-        frame.reserve(between, rounds > 1 ? frame.size().x * frame.size().y : 0);
+        const glm::uvec2 size = frame.size(), extent = walkExtent(size, frame.isBound(rates));
+        frame.reserve(between, rounds > 1 ? size.x * size.y : 0);
         forRounds(std::uint32_t(rounds), [&](std::uint32_t round, std::uint32_t from, std::uint32_t to) {
-            frame.dispatch(shader, frame.size(), {round, from, to});
+            frame.dispatch(shader, extent, {round, from, to});
         });
     }
 };

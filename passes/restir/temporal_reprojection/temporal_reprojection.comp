@@ -2,6 +2,7 @@
 // Two shifts a pixel: last frame's path into this frame, and, for the MIS weights, this frame's path into last frame's scene.
 #version 460
 #include "pass.glsl"
+#include "rate/walk.glsl"
 #include "restir/mis.glsl"
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
@@ -33,14 +34,15 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.ownHit = pathsSamples(place(pixel));
     r.before = pixelBefore(pixel, motion(pixel));
     r.confidence = r.jacobian = r.back = 0;
-    if (!historyValid() || !inside(r.before)) return;
+    if (!historyValid() || !inFrame(r.before) || isSkipped(pixel)) return;
+    r.before = standIn(r.before);
     World last = worldPrev();
     PixelView here = pixelView(w, hits(place(pixel))), there = pixelView(last, hitsPrev(place(r.before)));
     if (params.depth < 1e6 && !similarPixels(here, there)) return;
     r.past = historyReservoirs(place(r.before));
     r.pastHit = historySamples(place(r.before));
     r.pastTarget = target(r.past);
-    r.confidence = cappedConfidence(confidence(r.past), historyCap(pixel) * confidence(r.own));
+    r.confidence = cappedConfidence(confidence(r.past), historyCap(pixel) * max(confidence(r.own), 1));  // 0: a pixel that was not traced keeps its history
     r.refresh = walksSuffix(w, last);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Last frame's paths, shifted into this frame.
 #include <framework/pass/pass.h>
+#include <passes/rate/rates.h>
 #include <passes/restir/history.h>
 #include <passes/restir/paths.h>
 #include <passes/restir/rules.h>
@@ -18,6 +19,9 @@ struct TemporalReprojection final : Pass {
     In<ShiftRules>         rules{this, "rules", "of the pass that made the paths"};
     In<Paths>              paths{this, "paths", "this frame's path of each pixel"};
     In<Paths>              history{this, "history", "last frame's path of each pixel, after all reuse"};
+    In<Rates>              rates{this, "rates", "pixels that reuse anything; the others stay empty, and nobody reuses them: an image of lower resolution, "
+                                 "for upsample; unwired: all",
+                                 Need::optional};
     Out<Paths>             pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
     Out<Image>             color{this, "color",
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
@@ -27,6 +31,8 @@ struct TemporalReprojection final : Pass {
     SuffixRule             suffix{this};
     PassThrough            off{this, paths, pathsOut};
     InPlace                over{this, paths, pathsOut};
+
+    void execute(Frame& frame) override { frame.dispatch(shader, walkExtent(frame.size(), frame.isBound(rates))); }
 };
 LODESTIR_PASS(TemporalReprojection, "temporal_reprojection.comp",
               "Resamples each pixel's path with the one that last frame held where the pixel was (ReSTIR PT's temporal reuse).")
