@@ -117,6 +117,18 @@ class Study:
     def cost_ratio(self, technique, against, unit, passes=None, scenes=None, frame=0):
         return plain(self._cost(technique, unit, passes, (), scenes, frame) / self._cost(against, unit, passes, (), scenes, frame))
 
+    def count(self, technique, name, scene=None, frame=0):
+        """What the study counts beside times and rays, "steps" a pixel for one: mean over seeds."""
+        return plain(self._count(technique, name, scene, frame))
+
+    def count_ratio(self, technique, against, name, scene=None, frame=0, digits=3):
+        return plain(self._count(technique, name, scene, frame) / self._count(against, name, scene, frame), digits)
+
+    def _count(self, technique, name, scene, frame):
+        if name not in self.results.counts:
+            raise Missing(f"{self.name} doesn't count {name}; it counts {listed(self.results.counts)}")
+        return float(self.results.counts[name][self._at(technique, scene, frame)])
+
     def _cost(self, technique, unit, passes, rest, scenes, frame):
         return float(numpy.mean([self._cost_in(scene, technique, unit, passes, rest, frame) for scene in scenes or self.scenes]))
 
