@@ -126,7 +126,7 @@ class Study:
 
     def _count(self, technique, name, scene, frame):
         if name not in self.results.counts:
-            raise Missing(f"{self.name} doesn't count {name}; it counts {listed(self.results.counts)}")
+            raise Missing(f"{self.name} doesn't count {name}; it counts {listed(self.results.counts) or 'nothing'}")
         return float(self.results.counts[name][self._at(technique, scene, frame)])
 
     def _cost(self, technique, unit, passes, rest, scenes, frame):

@@ -151,6 +151,8 @@ class Archive(unittest.TestCase):
         self.assertEqual(k.cost("reuse", "rays", ["trace"]), "9.00")
         self.assertEqual(k.cost("reuse", "ms", rest=["trace"]), "1.50")
         self.assertEqual(k.cost_ratio("reuse", "path tracing, spp 1", "ms", ["trace"]), "3.00")
+        with self.assertRaisesRegex(Missing, "doesn't count steps; it counts nothing"):
+            k.count("reuse", "steps", "box")
         self.assertEqual(k.parts, ["spatial and temporal.cap"])
         self.assertEqual([k.ablation("spatial and temporal.cap", what, "hall") for what in ("ms", "relmse")], ["4.00 (3.95 to 4.05)", self.spanned("slow & poor", "hall")])
         self.assertIn("24 x 16 pixels, 4 seeds, 3 frames before the first that counts, references of 64 samples a pixel", k.conditions)

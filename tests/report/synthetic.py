@@ -224,14 +224,16 @@ def kept_study(root, name):
     frames = study["frames"]["measure"]
     graphs = [json.loads((path.parent / technique["graph"]).read_text()) for technique in study["techniques"].values()]
     passes = {name: {"ms": 1.5, "rays": {"nee": 100}} for graph in graphs for name in pass_names(graph)}
+    counts = [*study.get("counts", {}), *(["steps"] if study.get("countSteps") else [])]
     some = lambda: [float(value) for value in random.uniform(1, 2, 4)]  # noqa: E731
     summary = head(kind, scenes, [(technique, list(given.get("vary", given.get("solve", {})))) for technique, given in study["techniques"].items()], frames, metrics)
-    summary.update(study=path.stem, about=study["about"], cells=[], comparisons=[], sequences=[], exponents=[], decompositions=[])
+    summary.update(study=path.stem, about=study["about"], cells=[], comparisons=[], sequences=[], exponents=[], decompositions=[], counts=counts)
     for scene, (technique, knobs), frame in itertools.product(scenes, configurations, frames):
         place = {"scene": scene, "technique": technique, "knobs": knobs, "frame": frame}
         if kind == "error":
             values = {m["name"]: some() for m in metrics}
             cell = {"seeds": SEEDS, "ms": {"median": 1.5, "fastest": 1.0, "slowest": 2.0, "values": some()}, "rays": {"mean": 1.5, "halfWidth": 0.5, "values": some()}, "passes": passes,
+                    "counts": {name: {"mean": 1.5, "halfWidth": 0.5} for name in counts},
                     "metrics": {name: {**estimate(drawn), "values": drawn} for name, drawn in values.items()}}
             span = {"ratio": True, "paired": True, "middle": 2.0, "low": 1.5, "high": 2.5}
             if "ablate" in study["techniques"][technique]:
