@@ -151,7 +151,8 @@ private:
         const std::string kind = port.type.kind == PortType::Kind::image && bound ? std::string(factsOf(format).name) : port.type.text();
         line("\n// {} ({}{})", port.doc, kind, bound ? "" : port.isInput() ? ", unwired" : ", not made");
         if (!port.isInput() && !bound) return line("void store{}(ivec2 p, {} value) {{}}", capitalised(port.identifier()), factsOf(format).glsl);
-        if (port.isInput() && port.optional && startsWire(port)) line("#define HAS_{} {}", port.wire(), bound ? 1 : 0);
+        // Of those that are always wired, too: files that several passes share ask, and GLSL takes what is not defined for 0.
+        if (port.isInput() && startsWire(port)) line("#define HAS_{} {}", port.wire(), bound ? 1 : 0);
         switch (port.type.kind) {
         case PortType::Kind::image: bound ? writeImage(i, port, format) : writeNoImage(port); break;
         case PortType::Kind::buffer: bound ? writeBuffer(i, port) : writeNoBuffer(port); break;

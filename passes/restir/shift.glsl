@@ -15,6 +15,7 @@
 #include "restir/path_vertex.glsl"
 #include "restir/probe_path.glsl"
 #include "restir/sample_hit.h"
+#include "trace/known_ray.glsl"
 #include "world/camera.glsl"
 
 const uint SHIFT_WALK = 0u;     // `ray` looks for the next vertex
@@ -113,12 +114,8 @@ Ray shiftRay(Shift t, out bool anyHit, out uint purpose) {
               : t.state == SHIFT_SEE   ? RAYS_VISIBILITY
               : t.vertex == 0u         ? RAYS_PRIMARY
                                        : RAYS_REPLAY;
-    Ray ray = t.ray;
-    if (t.known && t.state == SHIFT_WALK && t.vertex == 0u) {
-        purpose = RAYS_PURPOSES;
-        ray.tMax = -1.0;
-    }
-    return ray;
+    if (t.known && t.state == SHIFT_WALK && t.vertex == 0u) return knownRay(purpose);
+    return t.ray;
 }
 
 void shiftFail(inout Shift t) {

@@ -2,10 +2,12 @@
 """docs/results.md, made of docs/results.md.in and the archives of studies: what the template asks of them."""
 import math
 import pathlib
+from typing import NamedTuple
 
 import jinja2
 import numpy
 
+from .frontier import undominated
 from .results import Missing, load
 from .statistics import Difference, compare_values, estimate
 from .words import listed
@@ -36,6 +38,13 @@ def of_difference(difference):
     decimals = decimals_of(difference.middle, 3)
     middle, low, high = (f"{value:.{decimals}f}" for value in (difference.middle, difference.low, difference.high))
     return middle if low in (high, "nan") else f"{middle} ({low} to {high})"
+
+
+class Measured(NamedTuple):
+    """A technique in one scene: what it costs and its error."""
+    label: str
+    x: float
+    y: float
 
 
 class Study:
@@ -117,9 +126,9 @@ class Study:
     def cost_ratio(self, technique, against, unit, passes=None, scenes=None, frame=0):
         return plain(self._cost(technique, unit, passes, (), scenes, frame) / self._cost(against, unit, passes, (), scenes, frame))
 
-    def count(self, technique, name, scene=None, frame=0):
-        """What the study counts beside times and rays, "steps" a pixel for one: mean over seeds."""
-        return plain(self._count(technique, name, scene, frame))
+    def count(self, technique, name, scene=None, frame=0, per=1):
+        """What the study counts beside times and rays, "steps" a pixel for one, in units of `per`: mean over seeds."""
+        return plain(self._count(technique, name, scene, frame) / per)
 
     def count_ratio(self, technique, against, name, scene=None, frame=0, digits=3):
         return plain(self._count(technique, name, scene, frame) / self._count(against, name, scene, frame), digits)
@@ -141,6 +150,12 @@ class Study:
             return (r.ms if unit == "ms" else r.rays)[at]
         by_pass = r.pass_ms[at] if unit == "ms" else r.pass_rays[at].sum(axis=-1)
         return float(sum(value for name, value in zip(r.passes, by_pass) if math.isfinite(value) and (name in passes if passes else name not in rest)))
+
+    def undominated(self, metric, unit, scene, frame=0):
+        """Techniques than which no other is better both in "ms" or "rays" and in error, by rising cost."""
+        cost, error = self.results.ms if unit == "ms" else self.results.rays, self.results.error[metric]
+        at = ((label, self._at(label, scene, frame)) for label in self.labels_of(scene))
+        return [p.label for p in undominated(Measured(label, float(cost[place]), float(error[place])) for label, place in at)]
 
     # Ablations: the whole without a part, as the study compared it with the whole.
     @property

@@ -11,7 +11,7 @@ import matplotlib
 matplotlib.use("agg")  # no display is ever touched
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy  # noqa: E402
-from matplotlib import colors, ticker  # noqa: E402
+from matplotlib import colors, ticker, transforms  # noqa: E402
 
 logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)  # a family that isn't there is no news: the next one is taken
 
@@ -59,11 +59,12 @@ def curve_style(index, variant=0):
     """Colour, marker and dash, so that the first 21 curves differ in more than one of them. Variants of a curve (values of a knob, where each is a curve
     of its own) keep colour and marker, and grow lighter."""
     cycle = palette()
+    turn = index // len(cycle)
     color = numpy.array(colors.to_rgb(cycle[index % len(cycle)]))
-    marker = MARKERS[index % len(MARKERS)]
+    marker = MARKERS[(index + 2 * turn) % len(MARKERS)]
     return {"color": tuple(color + (1 - color) * min(0.25 * variant, 0.65)), "marker": marker,
             "markersize": plt.rcParams["lines.markersize"] * (1.35 if marker in "^vPX" else 1.0),  # of one weight to the eye
-            "linestyle": DASHES[(index // len(cycle) + variant) % len(DASHES)]}
+            "linestyle": DASHES[(turn + variant) % len(DASHES)]}
 
 
 def scale(axis, values, log):
@@ -143,6 +144,25 @@ class Drawing:
         for place, i in zip(placed, order):
             texts[i].set_y(place)
             axes.plot([1.0, 1.015], [places[i].clip(0, 1), place], color=ends[i][2], linewidth=0.5, transform=axes.transAxes, clip_on=False)
+
+    def label_points(self, labels):
+        """Names points, (x, y, text, colour) each, once all else is drawn: beside the point where that covers no other point, no other name and no border; a
+        name that has no such place is left out, and found under the pointer."""
+        axes = self.axes
+        self.figure.draw_without_rendering()  # places in pixels
+        taken = [transforms.Bbox.from_extents(*(place - 2), *(place + 2)) for line in axes.lines if line.get_marker() not in ("None", None, "")
+                 for place in axes.transData.transform(line.get_xydata())]
+        for x, y, text, color in labels:
+            for across, up in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
+                name = axes.annotate(text, (x, y), (3 * across, 4 * up), textcoords="offset points", fontsize=5.5, color=color,
+                                     ha="left" if across > 0 else "right", va="bottom" if up > 0 else "top")
+                name.set_in_layout(False)
+                box = name.get_window_extent()
+                inside = axes.bbox.containsx(box.x0) and axes.bbox.containsx(box.x1) and axes.bbox.containsy(box.y0) and axes.bbox.containsy(box.y1)
+                if inside and not box.count_overlaps(taken):
+                    taken.append(box)
+                    break
+                name.remove()
 
     def finish(self):
         if not self._finished:

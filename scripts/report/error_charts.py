@@ -6,6 +6,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from .drawing import GREY, INK, Drawing, color_of, curve_style, number, scale, with_interval
+from .frontier import undominated
 from .plots import Point, at_frame, devices, draw_forest, draw_points, slug, with_unit
 from .results import configuration_of, real
 
@@ -47,16 +48,6 @@ def error_vs_rays(r, scene, metric):
     return draw_points(d, curves, "rays a pixel", with_unit(metric), True, metric["fromZero"])
 
 
-def undominated(points):
-    """Of those that no other is better than in both, by rising x."""
-    best, kept = numpy.inf, []
-    for p in sorted(points, key=lambda p: (p.x, p.y)):
-        if p.y < best:
-            best = p.y
-            kept.append(p)
-    return kept
-
-
 def frontier(r, scene, metric):
     """Error against time of every technique and knob; the undominated joined and named."""
     if not metric["fromZero"]:
@@ -71,7 +62,7 @@ def frontier(r, scene, metric):
     axes.step([p.x for p in best], [p.y for p in best], where="post", color=GREY, linewidth=0.9, zorder=1)
     scale(axes.xaxis, [value for p in points for value in (p.x,)], True)
     scale(axes.yaxis, [p.y for p in points], True)
-    handles = []
+    handles, names = [], []
     for place, all_of_curve in curves.values():
         style = {**curve_style(*place), "linestyle": "none"}
         handles.append(Line2D([], [], **style))
@@ -83,11 +74,10 @@ def frontier(r, scene, metric):
             (mark,) = axes.plot([p.x], [p.y], **looks, markeredgecolor="white", markeredgewidth=0.4)
             d.hint(mark, p.about + ("; not dominated" if kept else ""))
             if kept and p.label:
-                right = axes.transAxes.inverted().transform(axes.transData.transform((p.x, p.y)))[0] > 0.85
-                axes.annotate(p.label, (p.x, p.y), (-3 if right else 3, 4), textcoords="offset points", fontsize=5.5, color=style["color"],
-                              ha="right" if right else "left")
+                names.append((p.x, p.y, p.label, style["color"]))
     axes.set(xlabel=f"time of the frame (ms, {devices(r)})", ylabel=with_unit(metric))
     d.legend(handles, list(curves))
+    d.label_points(names)
     d.note = "Joined: what nothing else measured is both faster and nearer than. Medians and means alone; intervals are in the chart of error against time."
     return d
 

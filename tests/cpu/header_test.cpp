@@ -232,7 +232,7 @@ TEST(Header, ParametersAreWrittenAsTheShaderReadsThem) {
 TEST(Header, SaysWhatEachThingIs) {
     const Everything pass;
     const std::string text = passHeader(pass, "everything", bindings(pass, false, Format::rgba16f));
-    for (const char* part : {"// where (Image, unwired)\n#define HAS_mask 0", "// what comes in (rgba16f)",
+    for (const char* part : {"// where (Image, unwired)\n#define HAS_mask 0", "// what comes in (rgba16f)\n#define HAS_color 1",
                              "// a constant (int 1..33)\nlayout(constant_id = 1) const int taps = 9;", "const int curve_filmic = 1;",
                              "float knee;  // a float (float 0..10)", "#include \"world/world.h\"", "World world()"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;

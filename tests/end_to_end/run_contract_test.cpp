@@ -221,6 +221,15 @@ TEST_F(RunContract, HelpEndsWithZero) {
     }
 }
 
+// If this fails, a reader takes the scene's own choice of levels for what the graph shows.
+TEST_F(RunContract, CheckSaysWhoChoosesLevels) {
+    const auto levels = [&](const char* graph) {
+        return OrderedJson::parse(lodestir({"check", sourceFolder / graph, "--json"}).out)["levels"].get<std::string>();
+    };
+    EXPECT_EQ(levels("graphs/restir_pt.json").find("passes read"), std::string::npos);
+    EXPECT_NE(levels("graphs/stochastic_lod.json").find("lod (lod_select)"), std::string::npos);
+}
+
 // If this fails, a script takes what a failed run left for a result.
 TEST_F(RunContract, FailuresEndWithOneAndLeaveNothing) {
     const std::string graph = pathTracer.string(), out = (folder / "out").string();

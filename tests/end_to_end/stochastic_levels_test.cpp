@@ -203,8 +203,7 @@ protected:
         return folder.path / (type + ".json");
     }
     StudyGraph variant(const Path& graph, const std::string& name, std::vector<Setting> set = {}) {
-        const OrderedJson half = atLevel(0.5);
-        for (const auto& [parameter, value] : half.items())
+        for (const auto& [parameter, value] : levels_.items())
             set.push_back({"lod." + parameter, value.is_string() ? Json(value.get<std::string>()) : Json(value.get<double>())});
         return {.graph = graph, .variant = name, .set = std::move(set), .port = {}, .where = {}};
     }
@@ -232,19 +231,57 @@ protected:
         const auto wall = [](OrderedJson place, OrderedJson turn) {
             return OrderedJson{{"model", "wall"}, {"translation", std::move(place)}, {"rotationDegrees", std::move(turn)}, {"scale", 1.4}};
         };
-        scene_ = write("dissolving", {"bowl", "wall"}, OrderedJson::array(),
-                       {{"instances", OrderedJson::array({OrderedJson{{"model", "bowl"}}, wall({0, -0.3, 0}, {0, 0, 0}), wall({1.2, 0.8, 0}, {0, 0, 90}),
-                                                          wall({0, 0.8, -1.2}, {90, 0, 0})})},
-                        {"environment", {{"type", "constant"}, {"color", {0.2, 0.2, 0.2}}}}});
+        corner_ = {{"instances", OrderedJson::array({OrderedJson{{"model", "bowl"}}, wall({0, -0.3, 0}, {0, 0, 0}), wall({1.2, 0.8, 0}, {0, 0, 90}),
+                                                     wall({0, 0.8, -1.2}, {90, 0, 0})})},
+                   {"environment", {{"type", "constant"}, {"color", {0.2, 0.2, 0.2}}}}};
+        scene_ = write("dissolving", {"bowl", "wall"}, OrderedJson::array(), corner_);
+    }
+    /// From here on the camera goes away from the bowl, of which each frame shows more of the coarser level.
+    void goAway() {
+        const auto key = [](int frame, double way) {
+            return OrderedJson{{"frame", frame}, {"position", {0.4 * way, 0.1 + 2.5 * way, 2.6 * way}}, {"target", {0, 0.1, 0}}};
+        };
+        OrderedJson camera = key(0, 0.85);
+        camera.erase("frame");
+        camera["fovy"] = 44;
+        camera["keyframes"] = OrderedJson::array({key(0, 0.85), key(3, 1.15)});
+        corner_["camera"] = camera;
+        scene_ = write("going_away", {"bowl", "wall"}, OrderedJson::array(), corner_);
+        levels_ = {{"mode", "stochastic"}, {"curve", "linear"}, {"depthNear", 1}, {"depthFar", 3}, {"transition", 1}, {"bias", 0}};
     }
 
-private:
     Path scene_;
+    OrderedJson levels_ = atLevel(0.5);
+
+private:
+    OrderedJson corner_;
     std::optional<EnsembleJudge> judge_;
 };
 
 TEST_F(DissolvingReuse, KeepsTheMean) {
     for (const char* form : {"number per path", "number per pixel", "number per pixel, mapped"}) {
+        const EnsembleResult result = judge(form, "spatial_reuse");
+        EXPECT_EQ(result.verdict, Verdict::unbiased) << form << ": " << result.reason;
+        EXPECT_LE(result.halfWidth, 0.01) << form;
+    }
+}
+
+// History was made where other rays saw the coarser level: with the shares of its own frame it would be somebody else's light.
+TEST_F(DissolvingReuse, KeepsTheMeanWhereSharesChange) {
+    goAway();
+    Frames frames(scene_, {64, 36}, {{"lod", node("lod_select", OrderedJson::object(), levels_)}, {"hits", hitsNode()}}, {"hits.hits"});
+    double last = -1;
+    for (int frame = 0; frame < 4; ++frame) {
+        frames.run();
+        const auto hits = frames.records<PrimaryHit>("hits.hits");
+        const auto onBowl = [](const PrimaryHit& hit) { return hit.primitive != NONE && hit.instance == 0; };
+        const auto coarse = std::ranges::count_if(hits, [&](const PrimaryHit& hit) { return onBowl(hit) && hit.primitive >= 800; });
+        const double share = double(coarse) / double(std::ranges::count_if(hits, onBowl));
+        EXPECT_GT(share, last + 0.08) << "frame " << frame;
+        last = share;
+    }
+    EXPECT_LT(last, 0.95);
+    for (const char* form : {"number per path", "number per pixel"}) {
         const EnsembleResult result = judge(form, "spatial_reuse");
         EXPECT_EQ(result.verdict, Verdict::unbiased) << form << ": " << result.reason;
         EXPECT_LE(result.halfWidth, 0.01) << form;

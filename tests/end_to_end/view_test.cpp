@@ -270,6 +270,35 @@ TEST_F(View, WidgetsChangeTheImageAndWhatIsSaved) {
     EXPECT_TRUE(viewer.running());
 }
 
+// If this fails, whoever edits a material while an impostor is shown waits for a bake, or sees another picture than a run of the edited graph makes.
+TEST_F(View, AMaterialIsEditedLive) {
+    const Path graph = sourceFolder / "graphs/impostor.json";
+    const Arguments small{"--scene", (sourceFolder / "scenes/impostor_sphere.json").string(), "--size", "96x96", "--set", "bake.resolution=64"};
+    Viewer viewer(*display, folder, graph, small);
+    const OrderedJson start = viewer.await("frames", rendered, 120s);
+    viewer.click("edit.red", 0);
+    const OrderedJson edited = viewer.await("a ball that reflects no red", [&](const OrderedJson& r) {
+        return r.contains("mean") && r["mean"].get<double>() < 0.9 * start["mean"].get<double>();
+    });
+    EXPECT_EQ(edited["builds"], 1);
+    EXPECT_GT(edited["runs"]["shade"].get<int>(), start["runs"]["shade"].get<int>());
+    EXPECT_EQ(edited["runs"]["bake"], start["runs"]["bake"]) << "baked again";
+
+    viewer.click("save");
+    viewer.await("an image", [](const OrderedJson& r) { return r["note"].get<std::string>().find(".exr") != std::string::npos; });
+    Arguments run{"run", graph.string(), "--frames", "1", "--out", (folder / "run").string(), "--set",
+                  "edit.red=" + edited["parameters"]["edit.red"].dump()};
+    run.insert(run.end(), small.begin(), small.end());
+    ASSERT_EQ(lodestir(run).exitCode, 0);
+    const auto image = [&](const Path& in) {
+        for (const std::string& name : filesOf(in))
+            if (name.ends_with(".exr")) return readExrFile(in / name).image.values;
+        return std::vector<float>();
+    };
+    EXPECT_FALSE(image(folder / "out").empty());
+    EXPECT_TRUE(image(folder / "out") == image(folder / "run")) << "not the picture of a run";
+}
+
 TEST_F(View, LivesThroughBrokenEdits) {
     // A copy of the shaders, so that one can be broken: an include of tone_map, not its own file.
     std::filesystem::copy(sourceFolder / "framework/shaders", folder / "shaders", std::filesystem::copy_options::recursive);

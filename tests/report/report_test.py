@@ -18,7 +18,7 @@ import warnings
 import numpy
 import synthetic
 
-from report import charts, compare, error_charts, exr, load, needs_charts, plots
+from report import charts, compare, drawing, error_charts, exr, frontier, load, needs_charts, plots
 from report.command import run, write
 from report.drawing import Drawing, number, use_style
 
@@ -147,10 +147,28 @@ class ReportTest(unittest.TestCase):
         self.assertIn("1 point has no place on these axes", d.note)
         d.close()
 
+    def test_curves_differ_in_more_than_their_colour(self):
+        """Also where nothing is dashed: marker and colour tell them apart."""
+        styles = [drawing.curve_style(i) for i in range(21)]
+        for i, a in enumerate(styles):
+            for b in styles[:i]:
+                self.assertGreaterEqual(sum(str(a[key]) != str(b[key]) for key in ("color", "marker", "linestyle")), 2)
+
+    def test_names_of_points_cover_nothing(self):
+        d = Drawing("names", "a title")
+        d.axes.plot([1, 1.02, 1.04, 3], [1, 1.01, 1.0, 3], marker="o", linestyle="none")
+        d.label_points([(x, y, "candidates 4", "black") for x, y in ((1, 1), (1.02, 1.01), (1.04, 1.0), (3, 3))])
+        d.finish()
+        boxes = [text.get_window_extent() for text in d.axes.texts]
+        self.assertGreaterEqual(len(boxes), 2)
+        for i, box in enumerate(boxes):
+            self.assertEqual(box.count_overlaps(boxes[:i]), 0)
+        d.close()
+
     def test_frontier_keeps_the_undominated(self):
         point = lambda x, y: plots.Point(x, y, "")  # noqa: E731
         points = [point(1, 5), point(2, 5), point(2, 3), point(3, 4), point(4, 1), point(4, 2)]
-        self.assertEqual([(p.x, p.y) for p in error_charts.undominated(points)], [(1, 5), (2, 3), (4, 1)])
+        self.assertEqual([(p.x, p.y) for p in frontier.undominated(points)], [(1, 5), (2, 3), (4, 1)])
 
     def test_outcomes_are_the_study_s(self):
         """If this fails, a technique that fails is coloured as one that holds."""

@@ -200,12 +200,16 @@ class Document(unittest.TestCase):
         empty = render(root)
         asked = sorted(set(re.findall(r'study\("([^"]+)"\)', (TREE / "docs/results.md.in").read_text())))
         self.assertGreater(len(asked), 5)
-        for name in asked:
+        paths = {name: root / f"studies/results/{name}.json" for name in asked}
+        kept = {name: json.dumps(synthetic.kept_study(TREE, name)) for name in asked}
+        for name, path in paths.items():
             self.assertNotIn(f"Study `studies/{name}.json`", empty)
-            path = root / f"studies/results/{name}.json"
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(json.dumps(synthetic.kept_study(TREE, name)))
+            path.write_text(kept[name])
             self.assertIn(f"Study `studies/{name}.json`", render(root))
+            path.unlink()
+        for name, path in paths.items():
+            path.write_text(kept[name])
         for heading, after in re.findall(r"^(#+ .+)\n+(#+ )", empty, re.M):
             self.assertTrue(heading.startswith("# "), f"{heading}: a section without its archive leaves nothing")
         self.assertIsNone(re.search(r"\bnan\b|\n\n\n", render(root)), "a hole")

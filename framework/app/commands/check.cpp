@@ -6,8 +6,10 @@
 #include <framework/graph/plan.h>
 #include <framework/graph/plugins.h>
 #include <framework/scene/level_policy.h>
+#include <framework/shaders/world/world.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -35,11 +37,24 @@ void checkVariants(const Options& options, const std::vector<std::string>& names
     }
 }
 
+/// Passes that show another world than the scene node does: levels they choose are theirs.
+std::string worldMakers(const Graph& graph) {
+    std::vector<std::string> names;
+    for (const GraphNode& node : graph.nodes) {
+        const auto makesWorld = [](const Port* port) { return port->role == Port::Role::out && port->type.isSame(PortTypeOf<World>::value); };
+        if (!node.off && node.type != "scene" && std::ranges::any_of(node.pass->ports, makesWorld))
+            names.push_back(fmt::format("{} ({})", node.name, node.type));
+    }
+    return fmt::to_string(fmt::join(names, ", "));
+}
+
 /// Which levels the graph shows: a graph without a pass that selects them follows the scene file.
 std::string levelPolicy(const Graph& graph) {
     if (graph.description.scene.empty()) return "no scene is named";
+    const std::string makers = worldMakers(graph);
     try {
-        return "by the scene: " + describe(loadScene(graph.description.scene).lod);
+        return "by the scene: " + describe(loadScene(graph.description.scene).lod) +
+               (makers.empty() ? "" : fmt::format("; passes read the world of {}, which may show others", makers));
     } catch (const Error& error) {
         throw Error(graph.description.sceneWhere, fmt::format("the scene can't be loaded: {}", error.problems()[0].text()));
     }

@@ -40,6 +40,7 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"area", {area.corner.x, area.corner.y, area.size.x, area.size.y}},
                         {"widgets", panels.widgets()}};
     if (status.statistics) json["mean"] = status.statistics->mean;
+    for (const PassTime& pass : status.passes) json["runs"][pass.name] = pass.runs;
     for (const auto& [name, value] : panels.values())
         std::visit([&, key = name](const auto& v) { json["parameters"][key] = v; }, value);
     writeFile(file_, json.dump(1) + "\n");

@@ -157,6 +157,7 @@ void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
         PassTime& time = status_.passes[i];
         if (time.name != pass.name) time = {.name = pass.name};
         time.ran = pass.ran;
+        time.runs += pass.ran;
         time.setup = pass.setup;
         if (pass.ran) smooth(time.milliseconds, pass.milliseconds);
         time.rays = pass.rays;

@@ -71,6 +71,7 @@ struct CameraState {
 struct PassTime {
     std::string name;
     bool ran = false, setup = false;
+    std::uint64_t runs = 0;   ///< frames in which it ran
     double milliseconds = 0;  ///< smoothed over some frames
     RayCounts rays{};         ///< of the last frame
 };

@@ -20,6 +20,7 @@
 // It may define DRIVER_PIXEL(place), the pixel that stands at a place of the dispatch, where pixels are walked in another order.
 //
 // pass.glsl gives `push` (base/frame.h) and countRays.
+#include "trace/known_ray.glsl"
 #include "trace/trace.glsl"
 
 layout(local_size_x = 64) in;
@@ -69,8 +70,8 @@ void driverWalk(ivec2 pixel) {
         bool phase = false;  // which kind of ray the subgroup traces now
         while (subgroupAny(live)) {
             bool anyHit = false;
-            Ray ray = Ray(vec3(0.0), 0.0, vec3(1.0), -1.0, 0u);
-            uint purpose = RAYS_PURPOSES;
+            uint purpose;
+            Ray ray = knownRay(purpose);
             if (live) ray = pathRay(path, anyHit, purpose);
             bool mine = live && anyHit == phase;
             if (!mine) ray.tMax = -1.0;

@@ -9,6 +9,7 @@
 #include "light/emission.glsl"
 #include "light/light.glsl"
 #include "surface/probe_surface.glsl"
+#include "trace/known_ray.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
 
@@ -150,12 +151,7 @@ Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
     anyHit = p.toLight;
     purpose = p.toLight ? RAYS_NEE : p.scatterings == 0 ? RAYS_PRIMARY : RAYS_CONTINUE;
 #if HAS_hits
-    if (!p.toLight && p.scatterings == 0) {
-        purpose = RAYS_PURPOSES;
-        Ray none = p.ray;
-        none.tMax = -1;
-        return none;
-    }
+    if (!p.toLight && p.scatterings == 0) return knownRay(purpose);
 #endif
     Ray ray = p.ray;
     if (RAY_LEVELS != 0 && params.fineReach > 0 && p.scatterings > 0 && !p.beyond) ray.tMax = min(ray.tMax, nearPart(ray));

@@ -3,8 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "base/math.glsl"
-
-bool isTraced(ivec2 p) { return ratesPixels(pixelIndex(p)).source == pixelIndex(p); }
+#include "rate/walk.glsl"
 
 float alikeness(ivec2 p, ivec2 q) {
     float a = depths(p), b = depths(q);
@@ -19,10 +18,9 @@ void main() {
     for (int y = -params.radius; y <= params.radius; ++y)
         for (int x = -params.radius; x <= params.radius; ++x) {
             ivec2 q = p + ivec2(x, y);
-            if (isTraced(p) || !inside(q) || !isTraced(q)) continue;
+            if (!isSkipped(p) || !inside(q) || isSkipped(q)) continue;
             sum += vec4(colorRgba(q).rgb, 1) * alikeness(p, q) * exp(-2.0 * float(x * x + y * y) / square(float(params.radius)));
         }
-    uint i = ratesPixels(pixelIndex(p)).source;
-    vec3 nearest = colorRgba(ivec2(i % frameSize().x, i / frameSize().x)).rgb;  // itself where it is traced
+    vec3 nearest = colorRgba(standIn(p)).rgb;  // itself where it is traced
     storeColor(p, vec4(sum.w > 1e-6 ? sum.rgb / sum.w : nearest, 1));
 }

@@ -23,6 +23,7 @@ LightPoint drawnLight(World w, LightDraw d, uint candidate) { return lightPoint(
 
 #include "rate/walk.glsl"
 #include "restir/path_tree.glsl"
+#include "trace/known_ray.glsl"
 
 struct Path {
     PathTree tree;
@@ -80,12 +81,11 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
 }
 
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) {
-    Ray ray = treeRay(p.tree, anyHit, purpose);
     if (p.known && p.tree.vertex == 0) {
-        purpose = RAYS_PURPOSES;
-        ray.tMax = -1;
+        anyHit = false;
+        return knownRay(purpose);
     }
-    return ray;
+    return treeRay(p.tree, anyHit, purpose);
 }
 
 bool pathStep(inout Path p, World w, Hit hit) {
