@@ -17,6 +17,7 @@ struct PortMemory {
     int current = 0;
     int previous = 0;           ///< the copy that @prev reads: what was current when the frame began
     std::uint64_t version = 0;  ///< counts changes of the content
+    std::vector<std::byte> meaning;  ///< handles: Frame::provide
     std::size_t bytes = 0;
     bool handle = false;
 

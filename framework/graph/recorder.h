@@ -15,7 +15,8 @@ namespace lodestir {
 /// What a pass sees while it executes: records into the frame's command buffer.
 class Runner::State::Recorder final : public Frame {
 public:
-    Recorder(State& state, int node, Work& work) : s_(state), node_(node), work_(work) {}
+    /// `asBefore`: parameters and inputs of this frame are those that it ran with last.
+    Recorder(State& state, int node, Work& work, bool asBefore) : s_(state), node_(node), work_(work), asBefore_(asBefore) {}
 
     std::uint32_t index() const override { return s_.frame_; }
     std::uint32_t seed() const override { return s_.graph_.description.seed; }
@@ -91,7 +92,8 @@ public:
         const PortMemory& memory = s_.memories_->at(std::size_t(resource));
         return {(source->prev ? memory.last() : memory.now()).mapped(), memory.bytes};
     }
-    void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) override {
+    void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep,
+                 std::optional<std::span<const std::byte>> meaning) override {
         PortMemory& memory = made(port);
         if (value.size() != memory.bytes)
             throw Error("port \"" + std::string(port.name) + "\" holds " + std::to_string(memory.bytes) + " bytes, given " + std::to_string(value.size()));
@@ -102,14 +104,20 @@ public:
         keep = withInputs(std::move(keep));
         if (s_.topLevels_ && port.type.isSame(PortTypeOf<World>::value))
             keep = withTopLevel(bytes, old, memory.keep[std::size_t(before)], std::move(keep), memory.now().address());
-        const bool same = old && std::memcmp(old, bytes.data(), bytes.size()) == 0;
+        bool same = old != nullptr;
+        if (meaning) {
+            same = same && asBefore_ && std::ranges::equal(*meaning, memory.meaning);
+            memory.meaning.assign(meaning->begin(), meaning->end());
+        } else {
+            same = same && std::memcmp(old, bytes.data(), bytes.size()) == 0;
+        }
         std::memcpy(memory.now().mapped(), bytes.data(), bytes.size());
         memory.keep[std::size_t(memory.current)] = std::move(keep);
         if (!same) ++memory.version;
     }
     void provideScene(const Port& world, float at) override {
         const FrameWorld made = s_.world().at(at, s_.size_);
-        provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep);
+        provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep, {});
     }
     Memory objects(const In<World>& posed) override {
         std::optional<World> pose;
@@ -200,6 +208,7 @@ private:
     State& s_;
     int node_;
     Work& work_;
+    bool asBefore_;
     int dispatched_ = 0;
     bool recorded_ = false;
 };

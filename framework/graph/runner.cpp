@@ -89,10 +89,10 @@ void Runner::State::fillBlock(std::size_t node) {
     }
 }
 
-std::vector<std::uint64_t> Runner::State::inputVersions(std::size_t node) const {
+std::vector<std::uint64_t> Runner::State::inputVersions(std::size_t node, bool withPrevious) const {
     std::vector<std::uint64_t> versions;
     for (const auto& input : graph_.nodes[node].inputs)
-        if (input) versions.push_back(memories_->at(std::size_t(plan_.resourceOf(input->node, input->port))).version);
+        if (input && (withPrevious || !input->prev)) versions.push_back(memories_->at(std::size_t(plan_.resourceOf(input->node, input->port))).version);
     return versions;
 }
 
@@ -118,9 +118,11 @@ FrameReport Runner::State::run() {
         const GraphNode& n = graph_.nodes[node];
         NodeState& state = nodes_[node];
         if (!step.barrier.empty()) commands_.barrier();
-        const std::vector<std::uint64_t> versions = inputVersions(node);
+        const std::vector<std::uint64_t> versions = inputVersions(node, true), versionsNow = inputVersions(node, false);
         const bool runs = !step.onChange || !state.everRan || changed[node] || versions != state.inputVersions;
+        const bool asBefore = state.everRan && !changed[node] && versionsNow == state.inputVersionsNow;
         state.inputVersions = versions;
+        state.inputVersionsNow = versionsNow;
         work.report.passes.push_back({.name = n.name, .ran = runs, .setup = step.onChange});
         if (!runs) continue;
         std::uint64_t handlesBefore = 0, handlesAfter = 0;  // sums of versions: they only grow
@@ -140,7 +142,7 @@ FrameReport Runner::State::run() {
                     commands_.fill(memories_->at(i).now(), 0, memories_->at(i).now().size(), 0);
             commands_.barrier();
         }
-        Recorder recorder(*this, step.node, work);
+        Recorder recorder(*this, step.node, work, asBefore);
         n.pass->execute(recorder);
         if (topLevels_) topLevels_->record(commands_);
         endStep(work);

@@ -63,6 +63,7 @@ public:
         std::vector<std::byte> parameters;            ///< as of the last frame
         std::vector<std::string> texts;
         std::vector<std::uint64_t> inputVersions;     ///< that an onChange pass last ran with
+        std::vector<std::uint64_t> inputVersionsNow;  ///< the same without @prev
         bool everRan = false;
     };
     std::vector<NodeState> nodes_;  ///< parallel to Graph::nodes
@@ -101,7 +102,7 @@ private:
     bool takeParameters(std::size_t node);
     std::uint32_t countOf(std::size_t node, std::size_t port) const;  ///< elements of a buffer port as they are now
     void fillBlock(std::size_t node);
-    std::vector<std::uint64_t> inputVersions(std::size_t node) const;
+    std::vector<std::uint64_t> inputVersions(std::size_t node, bool withPrevious) const;
     void checkFaults() const;
     Path keptFile(std::size_t node, const Hash& key, std::size_t bytes) const;  ///< of Frame::kept()
     void keep(const Work& work) const;

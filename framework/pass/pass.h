@@ -23,6 +23,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,7 +94,10 @@ public:
     /// shaders of this pass, the device and the ray body. `key` has to cover all else that the content depends on. Damaged files count as none.
     virtual KeptMemory kept(const Hash& key, std::size_t bytes, const std::string& name) = 0;
     /// Gives a handle output its struct; `keep` owns the memory that the struct points to and lives as long as the value is used (also as @prev).
-    virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep) = 0;
+    /// Whether it is another than last frame's (accumulation starts again, and who runs on change runs) is told by its bytes, or, where these hold memory
+    /// that is new each frame or random numbers, by `meaning`: beside parameters and inputs of this frame all that it depends on.
+    virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep,
+                         std::optional<std::span<const std::byte>> meaning = {}) = 0;
     /// Gives an output the World of the loaded scene as it stands at a frame (fractions are fine).
     virtual void provideScene(const Port& world, float at) = 0;
     /// Where a World lies that holds each mesh of the scene by itself: instance m is mesh m, untransformed, at its finest level, in the pose that the World

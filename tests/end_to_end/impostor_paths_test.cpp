@@ -134,10 +134,12 @@ TEST_F(ImpostorPaths, TheMeshThatStandsForItThrowsNoShadowOnIt) {
 }
 
 // If this fails, reuse shifts paths to or from texels with a wrong Jacobian, or sees through them where path tracing doesn't.
-TEST(ImpostorPathsUnbiased, ReuseHasTheMeanOfPathTracing) {
-    const std::vector<Setting> set{{"draw.film", Json("centre")}, {"hits.film", Json("centre")}, {"bake.views", Json(6)}, {"draw.pixelError", Json(0.0)}};
+/// Judges ReSTIR PT on a scene's impostors by path tracing of the same.
+void expectReuseUnbiased(const Path& scene) {
+    const std::vector<Setting> set{{"draw.film", Json("centre")}, {"hits.film", Json("centre")}, {"bake.views", Json(6)},
+                                   {"draw.pixelError", Json(0.0)}, {"draw.hysteresis", Json(0.0)}};
     const Path graph = sourceFolder / "graphs/impostor_restir.json";
-    EnsembleJudge judge({.scene = sceneFile("deer"),
+    EnsembleJudge judge({.scene = scene,
                          .size = {32, 32},
                          .warmup = 3,
                          .frame = 3,
@@ -151,6 +153,38 @@ TEST(ImpostorPathsUnbiased, ReuseHasTheMeanOfPathTracing) {
     std::printf("%+.2f %% +- %.2f %%\n", 100 * (result.energy[0] / result.referenceEnergy[0] - 1), 100 * result.halfWidth);
     EXPECT_EQ(result.verdict, Verdict::unbiased) << result.reason;
     EXPECT_LE(result.halfWidth, 0.01);
+}
+
+TEST(ImpostorPathsUnbiased, ReuseHasTheMeanOfPathTracing) { expectReuseUnbiased(sceneFile("deer")); }
+
+// The camera goes away: history saw other texels, of finer levels with fewer materials each.
+TEST_F(ImpostorPaths, ReuseHasTheMeanOfPathTracingWhereLevelsChange) {
+    OrderedJson scene = OrderedJson::parse(readText(sourceFolder / "scenes/deer.json"));
+    OrderedJson& camera = scene["camera"];
+    const auto key = [&](int frame, double away) {
+        OrderedJson position = camera["target"];
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double target = camera["target"][i].get<double>();
+            position[i] = target + away * (camera["position"][i].get<double>() - target);
+        }
+        return OrderedJson{{"frame", frame}, {"position", position}, {"target", camera["target"]}};
+    };
+    camera["keyframes"] = OrderedJson::array({key(0, 0.6), key(3, 1.3)});
+    const Path file = folder.path / "away.json";
+    writeFile(file, scene.dump());
+
+    Frames frames(file, {32, 32},
+                  {{"bake", {{"type", "impostor_bake"}, {"set", {{"views", 6}, {"points", 0}}}}},
+                   {"draw", {{"type", "impostor_forward_map"}, {"set", {{"hysteresis", 0}}}}}},
+                  {"draw.levels"});
+    std::set<std::uint32_t> levels;  // of any instance
+    for (int frame = 0; frame < 4; ++frame) {
+        frames.run();
+        const auto drawn = frames.records<std::uint32_t>("draw.levels");
+        for (std::size_t i = 0; i < frames.scene().instances.size(); ++i) levels.insert(std::uint32_t(i) << 4 | (drawn[i] & 15u));
+    }
+    EXPECT_GT(levels.size(), frames.scene().instances.size());
+    expectReuseUnbiased(file);
 }
 
 // If this fails, geometry and impostor don't take over from each other: both are gone for a frame, holes are filled where the geometry still shows, or it pops.

@@ -29,7 +29,7 @@ struct MaterialEdit final : Pass {
         const Memory memory = frame.upload(std::vector<MaterialRecord>(materials.size()), "materials");
         World made = frame.valueOf(world);
         made.materials = memory.address;
-        frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
+        frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep, std::span<const std::byte>());
         frame.dispatch(shader, {std::uint32_t(names.size()), 1}, {0, wanted.empty()});
         for (std::uint32_t i = 0; i < names.size(); ++i)
             if (names[i] == wanted) frame.dispatch(shader, {1, 1}, {i, true});

@@ -88,7 +88,8 @@ private:
         made.levels = levelsShown.address;
         made.levelsChanged = made.levels + made.instanceCount * sizeof(std::uint32_t);
         made.impostors = shownAs.address;
-        frame.provide(port, std::as_bytes(std::span(&made, 1)), std::make_shared<std::pair<Memory, Memory>>(levelsShown, shownAs));
+        frame.provide(port, std::as_bytes(std::span(&made, 1)), std::make_shared<std::pair<Memory, Memory>>(levelsShown, shownAs),
+                      std::span<const std::byte>());
     }
 };
 LODESTIR_PASS(ImpostorForwardMap, "impostor_forward_map.comp",

@@ -64,6 +64,7 @@ struct LodSelect final : Pass {
             throw Error("depthFar of a lod_select lies no farther than its depthNear", "levels go from the finest at depthNear to the coarsest at depthFar");
         std::vector<std::uint32_t> levels(scene.instances.size(), 0);
         if (chosen == Mode::schedule) levels = scheduledLevels(scene, float(frame.index()) + float(int(lead)));
+        const std::vector<std::uint32_t> given = levels;
         const auto count = std::uint32_t(levels.size());
         levels.resize(chosen == Mode::stochastic ? 2 * count + 1 : count + 1);  // levelsChanged, dissolves
         const Memory memory = frame.upload(levels, "levels");
@@ -74,7 +75,7 @@ struct LodSelect final : Pass {
             made.dissolves = made.levelsChanged + sizeof(std::uint32_t);
             made.frameKey = frame.seed() * 0x9e3779b9u + frame.index() * 0x85ebca6bu;
         }
-        frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep);
+        frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep, std::as_bytes(std::span(given)));
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
         frame.reserve(shown, std::uint32_t(scene.meshes.size()) * LEVELS);
         for (const Port* port : std::initializer_list<const Port*>{&shown, &triangles, &bytes}) frame.fill(*port, 0);
