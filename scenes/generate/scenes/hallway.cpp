@@ -83,9 +83,7 @@ Model gate(const Paints& paints) {
 
 Model plinth(const Paints& paints) {
     Model model{"plinth", {}};
-    const auto block = [&](float low, float high, float half) {
-        model.add(paints.trim, slab({-half, low, -half}, {half, high, half}, ashlarSize, 0.015f));
-    };
+    const auto block = [&](float low, float high, float half) { model.add(paints.trim, slab({-half, low, -half}, {half, high, half}, ashlarSize, 0.015f)); };
     block(0, 0.12f, 0.40f), block(0.12f, 0.17f, 0.36f), block(plinthHeight - 0.11f, plinthHeight, 0.39f);
     model.add(paints.column, slab({-0.31f, 0.17f, -0.31f}, {0.31f, plinthHeight - 0.11f, 0.31f}, slabSize, 0.01f));
     return model;
@@ -105,7 +103,8 @@ void addGarden(Glb& glb, int leaf) {
     for (int i = 0; i < int(std::size(places)); ++i)
         glb.addNode("orchard_" + std::to_string(i), orchard, {.translation = {places[i].x, 0, -length - places[i].y}, .rotation = turnY(73.0f * float(i))});
     Model lawn{"lawn", {}};
-    lawn.add(glb.addMaterial({.name = "lawn", .color = {0.13f, 0.20f, 0.06f}, .ior = 1}), rectangle({-40, -0.02f, -length - 60}, {80, 0, 0}, {0, 0, length + 90}));
+    lawn.add(glb.addMaterial({.name = "lawn", .color = {0.13f, 0.20f, 0.06f}, .ior = 1}),
+             rectangle({-40, -0.02f, -length - 60}, {80, 0, 0}, {0, 0, length + 90}));
     glb.addNode(lawn);
 }
 
@@ -117,7 +116,7 @@ Glb makeHallway() {
         .trim = glb.addMaterial({.name = "limestone", .color = {0.64f, 0.57f, 0.46f}, .roughness = 0.85f}),
         .column = glb.addMaterial(glb.dressed({.name = "marble"}, paintMarble({{0.66f, 0.60f, 0.53f}, {0.40f, 0.26f, 0.20f}, 0.22f}, 8, 512))),
         .floor = glb.addMaterial(glb.dressed({.name = "floor"}, paintMarbleFloor({{0.60f, 0.54f, 0.46f}, {0.36f, 0.28f, 0.22f}, 0.22f},
-                                                                                   {{0.20f, 0.075f, 0.05f}, {0.5f, 0.36f, 0.28f}, 0.2f}, 5, 768))),
+                                                                                 {{0.20f, 0.075f, 0.05f}, {0.5f, 0.36f, 0.28f}, 0.2f}, 5, 768))),
         .red = glb.addMaterial(glb.dressed({.name = "red_plaster"}, paintPlaster({0.50f, 0.17f, 0.10f}, 4, 512))),
         .ochre = glb.addMaterial(glb.dressed({.name = "ochre_plaster"}, paintPlaster({0.62f, 0.44f, 0.22f}, 9, 256))),
         .wood = glb.addMaterial({.name = "beams", .color = {0.16f, 0.095f, 0.05f}, .roughness = 0.8f}),
@@ -129,8 +128,17 @@ Glb makeHallway() {
     computeTangents(shaft);
     const int columns = glb.addMesh("column", shaft, paints.column), row = glb.addMesh(side("arcade", paints)), stand = glb.addMesh(plinth(paints)),
               bronze = glb.addMesh(cat(glb, "cat", 0.0052f)), orangePot = glb.addMesh(pot("pot", clay, soil, 0.5f));
-    const int orange = glb.addMesh("orange", tree(9, {.height = 1.7f, .spread = 0.55f, .waist = 0.55f, .bare = 0.36f, .dabs = 1400, .dab = 0.085f,
-                                                      .shade = {0.02f, 0.06f, 0.02f}, .light = {0.10f, 0.22f, 0.045f}, .accent = {0.85f, 0.35f, 0.03f}}), leaf);
+    const int orange = glb.addMesh("orange",
+                                   tree(9, {.height = 1.7f,
+                                            .spread = 0.55f,
+                                            .waist = 0.55f,
+                                            .bare = 0.36f,
+                                            .dabs = 1400,
+                                            .dab = 0.085f,
+                                            .shade = {0.02f, 0.06f, 0.02f},
+                                            .light = {0.10f, 0.22f, 0.045f},
+                                            .accent = {0.85f, 0.35f, 0.03f}}),
+                                   leaf);
     const glm::vec3 dyes[] = {{0.42f, 0.025f, 0.03f}, {0.03f, 0.07f, 0.30f}, {0.55f, 0.33f, 0.05f}, {0.03f, 0.20f, 0.10f}};
     std::vector<int> banners;
     for (int i = 0; i < int(std::size(dyes)); ++i) {
@@ -150,8 +158,8 @@ Glb makeHallway() {
             const glm::vec3 place = at(float(i) * bay, 0.68f);
             glb.addNode("plinth" + number, stand, {.translation = place});
             // They look across the hall and a little towards who comes.
-            glb.addNode("cat" + number, bronze, {.translation = place + glm::vec3(0, plinthHeight, 0), .rotation = turnY(side < 0 ? -42.0f : 222.0f),
-                                                        .scale = glm::vec3(1.25f)});
+            glb.addNode("cat" + number, bronze,
+                        {.translation = place + glm::vec3(0, plinthHeight, 0), .rotation = turnY(side < 0 ? -42.0f : 222.0f), .scale = glm::vec3(1.25f)});
         }
         for (int i = 0; i < bays; ++i) {
             const std::string number = "_" + name + "_" + std::to_string(i);
