@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "atlas.h"
+#include "figure.h"
 #include "noise.h"
 #include "random.h"
 #include "sculpture.h"
@@ -353,9 +354,7 @@ Model creature(Glb& glb, const std::string& name, float cell) {
     }
     computeNormals(mesh, 180);
     computeTangents(mesh);
-    Model model{name, {}};
-    model.parts.emplace_back(glb.addMaterial(glb.dressed({.name = name}, bake(mesh, pictureTexels, coat))), mesh);
-    return model;
+    return figure(glb, name, mesh, pictureTexels, coat);
 }
 
 }  // namespace lodestir::generate

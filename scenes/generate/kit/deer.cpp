@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "atlas.h"
+#include "figure.h"
 #include "noise.h"
 #include "random.h"
 #include "sculpture.h"
@@ -180,12 +181,9 @@ Surface coat(const glm::vec3& p, const glm::vec3& n) {
     s.roughness = 0.62f + 0.16f * hair - 0.10f * back;
     s.height = 0.0011f * hair;
 
-    const auto shiny = [&](const glm::vec3& color, float roughness, float share) {
-        s.color = glm::mix(s.color, color, share), s.roughness = glm::mix(s.roughness, roughness, share), s.height *= 1 - share;
-    };
-    shiny({0.012f, 0.009f, 0.008f}, 0.08f, head * glm::smoothstep(0.0235f, 0.0205f, toEye));
-    shiny({0.018f, 0.015f, 0.015f}, 0.28f, head * glm::smoothstep(0.062f, 0.050f, glm::distance(q, nose)));
-    shiny({0.025f, 0.019f, 0.015f}, 0.34f, glm::smoothstep(0.062f, 0.052f, p.y));
+    cover(s, {0.012f, 0.009f, 0.008f}, 0.08f, head * glm::smoothstep(0.0235f, 0.0205f, toEye));
+    cover(s, {0.018f, 0.015f, 0.015f}, 0.28f, head * glm::smoothstep(0.062f, 0.050f, glm::distance(q, nose)));
+    cover(s, {0.025f, 0.019f, 0.015f}, 0.34f, glm::smoothstep(0.062f, 0.052f, p.y));
     return s;
 }
 
@@ -216,10 +214,7 @@ Model deer(Glb& glb, const std::string& name, int texels) {
         const glm::vec3 q(glm::inverse(headFrame) * glm::vec4(p, 1));
         return q.y > 1.60f + 0.35f * std::max(0.70f - q.x, 0.0f) || (q.y > 1.548f && q.x > 0.70f && std::abs(q.z) < 0.1f);
     };
-    const Textures pictures = bake(mesh, texels, [&](const glm::vec3& p, const glm::vec3& n) { return isBone(p) ? bone(p) : coat(p, n); });
-    Model model{name, {}};
-    model.parts.emplace_back(glb.addMaterial(glb.dressed({.name = name}, pictures)), mesh);
-    return model;
+    return figure(glb, name, mesh, texels, [&](const glm::vec3& p, const glm::vec3& n) { return isBone(p) ? bone(p) : coat(p, n); });
 }
 
 }  // namespace lodestir::generate

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "atlas.h"
+#include "figure.h"
 #include "noise.h"
 #include "sculpture.h"
 
@@ -101,11 +102,8 @@ Surface coat(const glm::vec3& p, const glm::vec3& n) {
     s.color *= 1 + 0.16f * tuft + 0.20f * hair;
     s.roughness = 0.72f + 0.10f * hair;
     s.height = height * (0.0022f * hair + 0.0012f * tuft);
-    const auto bare = [&](const glm::vec3& color, float roughness, float share) {
-        s.color = glm::mix(s.color, color, share), s.roughness = glm::mix(s.roughness, roughness, share), s.height *= 1 - share;
-    };
-    bare({0.018f, 0.010f, 0.007f}, 0.07f, glm::smoothstep(0.0300f, 0.0275f, toEye));
-    bare({0.34f, 0.17f, 0.15f}, 0.38f, glm::smoothstep(0.032f, 0.022f, toNose));
+    cover(s, {0.018f, 0.010f, 0.007f}, 0.07f, glm::smoothstep(0.0300f, 0.0275f, toEye));
+    cover(s, {0.34f, 0.17f, 0.15f}, 0.38f, glm::smoothstep(0.032f, 0.022f, toNose));
     return s;
 }
 
@@ -121,10 +119,7 @@ Model rabbit(Glb& glb, const std::string& name, float cell) {
         return 0.0034f * fur(p) * glm::smoothstep(0.026f, 0.060f, std::min(bald, tip));
     };
     const Mesh mesh = charted(placed(clay.mesh(cell / height), glm::scale(glm::mat4(1), glm::vec3(height))), pictureTexels);
-    const Textures pictures = bake(mesh, pictureTexels, [](const glm::vec3& p, const glm::vec3& n) { return coat(p / height, n); });
-    Model model{name, {}};
-    model.parts.emplace_back(glb.addMaterial(glb.dressed({.name = name}, pictures)), mesh);
-    return model;
+    return figure(glb, name, mesh, pictureTexels, [](const glm::vec3& p, const glm::vec3& n) { return coat(p / height, n); });
 }
 
 }  // namespace lodestir::generate
