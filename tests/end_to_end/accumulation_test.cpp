@@ -60,9 +60,9 @@ TEST_F(Accumulation, StartsAgainWhereSomethingChanges) {
         if (frame == 2) frames.set("maker.red", Json(0.25));
     };
     EXPECT_EQ(countsOf(node("material_edit", OrderedJson::object(), {{"red", 0.5}}), 5, edit), (std::vector{1, 2, 1, 2, 3})) << "a parameter";
-    const OrderedJson camera = {{"position", {0.4, 2.6, 2.6}},
-                                {"target", {0, 0.1, 0}},
-                                {"keyframes", OrderedJson::array({{{"frame", 1}, {"position", {0.4, 2.6, 2.6}}}, {{"frame", 3}, {"position", {0.4, 2.6, 2.8}}}})}};
+    const auto key = [](int frame, double away) { return OrderedJson{{"frame", frame}, {"position", {0.4, 2.6, away}}}; };
+    const OrderedJson camera = {
+        {"position", {0.4, 2.6, 2.6}}, {"target", {0, 0.1, 0}}, {"keyframes", OrderedJson::array({key(1, 2.6), key(3, 2.8)})}};
     EXPECT_EQ(countsOf(lod("stochastic"), 6, {}, camera), (std::vector{1, 2, 1, 1, 2, 3})) << "the camera, by the scene";
 }
 
