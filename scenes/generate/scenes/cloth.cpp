@@ -108,7 +108,7 @@ void addThings(Glb& glb) {
     glb.addNode(teapot("teapot", pewter, 0.19f), {.translation = {0.33f, y, -0.04f}, .rotation = turnY(215)});
     glb.addNode(bowl("bowl", glaze, 0.14f), {.translation = {0.06f, y, 0.30f}});
     glb.addNode(fruit("fruit", skin, 11, 0.14f), {.translation = {0.06f, y, 0.30f}});
-    glb.addNode(mug("cup", porcelain), {.translation = {0.36f, y, 0.20f}, .rotation = turnY(-40), .scale = glm::vec3(0.075f)});
+    glb.addNode(mug("cup", porcelain), {.translation = {0.36f, y, 0.20f}, .rotation = turnY(-40)});
     const glm::vec3 dropped[] = {{-0.72f, 0.038f, 0.50f}, {-0.60f, 0.038f, 0.62f}};
     const int lemon = glb.addMesh("lemon", placed(sphere(32, 20), glm::mat4(glm::mat3(0.038f))),
                                   glb.addMaterial({.name = "lemon", .color = {0.72f, 0.48f, 0.04f}, .roughness = 0.45f}));
