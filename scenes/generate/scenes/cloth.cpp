@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // A damask cloth that fell over a round table and a ball on it; its pattern is woven into the mesh. A still life stands on it.
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "kit/backdrop.h"
 #include "kit/drape.h"
-#include "kit/joinery.h"
 #include "kit/masonry.h"
 #include "kit/metals.h"
 #include "kit/scene.h"
