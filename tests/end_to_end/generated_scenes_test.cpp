@@ -3,6 +3,7 @@
 #include "source_folder.h"
 
 #include <framework/core/files.h>
+#include <framework/scene/level_policy.h>
 #include <framework/scene/scene.h>
 
 #include <gtest/gtest.h>
@@ -131,6 +132,36 @@ TEST(GeneratedScenes, TheCreaturesAreOfEightLevels) {
     EXPECT_LT(creature->levels.back().error, 0.05f);
     const auto index = std::uint32_t(creature - scene.meshes.begin());
     EXPECT_EQ(std::ranges::count(scene.instances, index, &Instance::mesh), 64 * 60);
+}
+
+// Studies of level switches measure around frame 40, where nothing else may happen but that the camera goes on. What is a light would keep its level.
+TEST(GeneratedScenes, LevelsSwitchAtFrame40BeforeAMovingCamera) {
+    struct Switching {
+        const char *scene, *mesh;
+        std::size_t levels;
+    };
+    const Switching switching[] = {{"hallway", "cat", 4},     {"coastal_cliff", "cliff", 3}, {"coastal_cliff", "stack", 3},     {"lantern", "lantern", 4},
+                                   {"terrain", "terrain", 3}, {"cloth", "cloth", 4},         {"chess_focus", "white_pawn", 3}};
+    for (const auto& [name, meshName, levels] : switching) {
+        SCOPED_TRACE(name);
+        const Scene scene = loaded(name);
+        const auto mesh = std::ranges::find(scene.meshes, meshName, &Mesh::name);
+        ASSERT_NE(mesh, scene.meshes.end());
+        EXPECT_EQ(mesh->levels.size(), levels);
+        const auto before = levelsAt(scene, 39), after = levelsAt(scene, 40);
+        EXPECT_EQ(levelsAt(scene, 0), before);
+        EXPECT_EQ(levelsAt(scene, 80), after);
+        int switched = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            if (before[i] == after[i]) continue;
+            const Mesh& shown = scene.meshes[scene.instances[i].mesh];
+            if (&shown == &*mesh) ++switched;
+            EXPECT_TRUE(std::ranges::none_of(shown.levels.front().materials, [&](std::uint32_t m) { return scene.materials[m].isLight(); })) << shown.name;
+        }
+        EXPECT_GT(switched, 0);
+        const auto from = scene.cameraAt(39), to = scene.cameraAt(41);
+        EXPECT_TRUE(from.position != to.position || from.focus != to.focus);
+    }
 }
 
 // Convergence under motion is judged without gloss, which would move of its own.

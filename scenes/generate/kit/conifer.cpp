@@ -2,6 +2,7 @@
 // Spruces: see conifer.h.
 #include "conifer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "random.h"

@@ -2,7 +2,6 @@
 // Pictures of landscapes: see landscape.h.
 #include "landscape.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lodestir::generate {

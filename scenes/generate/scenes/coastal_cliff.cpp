@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A coast in the evening: cliffs of layered rock with a lighthouse on the headland, stacks in the surf, a low sun over the sea.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

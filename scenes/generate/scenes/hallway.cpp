@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A hall open to the sky between two storeys of arcades: bronze cats on plinths before its columns, banners in its arches, orange trees.
-#include <cmath>
 #include <string>
 #include <vector>
-
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "kit/arcade.h"
 #include "kit/cat.h"

@@ -64,10 +64,10 @@ void addLanterns(Glb& glb) {
 }
 
 void addRoom(Glb& glb) {
-    const int plaster = glb.addMaterial(glb.dressed({.name = "plaster"}, paintPlaster({0.76f, 0.70f, 0.62f}, 4, 512))),
-              oak = glb.addMaterial(glb.dressed({.name = "oak"}, paintPanel(lodestir::generate::oak(), 6, 768))),
-              walnut = glb.addMaterial(glb.dressed({.name = "walnut"}, paintPanel(lodestir::generate::walnut(), 8, 768))),
-              parquet = glb.addMaterial(glb.dressed({.name = "parquet"}, paintHerringbone(lodestir::generate::oak(), 3, 768)));
+    const int plaster = glb.addMaterial(glb.dressed({.name = "plaster"}, paintPlaster({0.76f, 0.70f, 0.62f}, 4, 384))),
+              oak = glb.addMaterial(glb.dressed({.name = "oak"}, paintPanel(lodestir::generate::oak(), 6, 512))),
+              walnut = glb.addMaterial(glb.dressed({.name = "walnut"}, paintPanel(lodestir::generate::walnut(), 8, 512))),
+              parquet = glb.addMaterial(glb.dressed({.name = "parquet"}, paintHerringbone(lodestir::generate::oak(), 3, 512)));
     Model room{"room", {}};
     room.add(plaster, slab({left - 0.2f, 0, back - 0.2f}, {left, ceiling, 3.5f}, plasterSize));
     room.add(plaster, slab({left, 0, back - 0.2f}, {3.2f, ceiling, back}, plasterSize));
@@ -88,7 +88,7 @@ void addRoom(Glb& glb) {
 
     Model carpet{"carpet", {}};
     const glm::vec2 size(2.2f, 1.45f);
-    carpet.add(glb.addMaterial(glb.dressed({.name = "carpet"}, paintRug(7, 896, size))), rug(7, size));
+    carpet.add(glb.addMaterial(glb.dressed({.name = "carpet"}, paintRug(7, 640, size))), rug(7, size));
     glb.addNode(carpet, {.translation = {0.05f, 0, 0.15f}, .rotation = turnY(4)});
 }
 
@@ -107,8 +107,8 @@ void addThings(Glb& glb) {
     };
     stand(cat(glb, "cat", 0.009f), {-1.08f, bench, back + 0.30f}, -62, 0.62f);
     stand(teapot("teapot", iron, 0.20f), {-0.42f, bench, back + 0.32f}, -25);
-    stand(mug("mug_0", cream), {-0.13f, bench, back + 0.42f}, 40, 0.085f);
-    stand(mug("mug_1", celadon), {-0.02f, bench, back + 0.30f}, 200, 0.085f);
+    stand(mug("mug_0", cream), {-0.13f, bench, back + 0.42f}, 40);
+    stand(mug("mug_1", celadon), {-0.02f, bench, back + 0.30f}, 200);
     stand(bowl("bowl", celadon, 0.17f), {0.36f, bench, back + 0.31f});
     stand(fruit("fruit", skin, 4, 0.17f), {0.36f, bench, back + 0.31f});
     stand(vase("vase", rust, 0.62f, 0.17f), {0.82f, bench, back + 0.28f});

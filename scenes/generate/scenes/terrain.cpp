@@ -7,7 +7,6 @@
 #include "kit/mountains.h"
 #include "kit/random.h"
 #include "kit/scene.h"
-#include "kit/shapes.h"
 #include "kit/stone.h"
 #include "kit/water.h"
 
