@@ -22,7 +22,7 @@ namespace {
 constexpr float tableRadius = 0.56f, tableHeight = 0.74f, topThickness = 0.03f;
 constexpr glm::vec4 hidden(-0.20f, tableHeight + 0.17f, -0.14f, 0.17f);  ///< a ball under the cloth: centre, radius
 constexpr glm::vec2 clothSize(1.86f);
-constexpr int clothCells = 400;  ///< 320,000 triangles: two vertices for five texels of its displacement
+constexpr int clothCells = 304;  ///< 184,832 triangles: three vertices for ten texels of its displacement
 constexpr int displacementTexels = 1024;
 constexpr float displacement = 0.006f;  ///< metres
 

@@ -52,7 +52,7 @@ void addBoulders(Glb& glb, const Mountains& mountains) {
 Glb makeTerrain() {
     Glb glb;
     const Mountains mountains(14);
-    glb.addNode(mountains.model(glb, "terrain", 360, 1536));
+    glb.addNode(mountains.model(glb, "terrain", 300, 1536));
     Model lake{"lake", {}};
     lake.add(glb.addMaterial({.name = "lake", .color = {0.012f, 0.05f, 0.055f}, .roughness = 0.08f, .ior = 1.333f}),
              placed(waterSheet({-700, -1500}, {700, 1900}, 17, {.length = 70, .height = 0.12f}), glm::vec3(0, Mountains::lake, 0)));
