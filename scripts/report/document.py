@@ -188,8 +188,9 @@ class Study:
     def conditions(self):
         s = self.results.summary
         sizes = listed(dict.fromkeys("{} x {}".format(*scene["size"]) for scene in s["scenes"]))
-        count = f"{s['seeds']} seeds" if self.results.kind == "error" else f"{s['seeds']} runs"
-        return (f"{sizes} pixels, {count}, {s['warmup']} frames before the first that counts, references of {s['referenceSamples']} samples a pixel; "
+        count = f"{s['seeds']} {'seed' if self.results.kind == 'error' else 'run'}{'' if s['seeds'] == 1 else 's'}"
+        references = f"of {s['referenceSamples']} samples a pixel" if s["referenceSamples"] else "without noise"
+        return (f"{sizes} pixels, {count}, {s['warmup']} frames before the first that counts, references {references}; "
                 f"{listed(s['devices'])} on {s['machine']}, {s['date'][:10]}, revision {s['revision']}")
 
 

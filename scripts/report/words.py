@@ -13,7 +13,7 @@ def facts(r):
     frames = (f"{s['warmup']} of warm-up, then " if s["warmup"] else "") + listed(str(offset) for offset in s["frames"])
     return [("device", listed(s["devices"]) or "no device yet"), ("machine", s["machine"]), ("date", s["date"].replace("T", " ").replace("Z", " UTC")),
             ("Lodestir", f"{s['lodestir']} ({s['revision']})"), ("pixels", ", ".join(sizes)), ("seeds" if r.kind == "error" else "runs", str(s["seeds"])),
-            ("frames", frames), ("reference", f"{s['referenceSamples']} samples a pixel")]
+            ("frames", frames), ("reference", f"{s['referenceSamples']} samples a pixel" if s["referenceSamples"] else "without noise")]
 
 
 def pairing(r):
