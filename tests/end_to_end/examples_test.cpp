@@ -62,8 +62,8 @@ TEST_F(LongExamples, EachVariantOfEachPass) {
 
 // By default those that no test of their own runs; their passes are above.
 TEST_F(Examples, NamedConfigurations) {
-    const std::set<std::string> withTests{"impostor",   "impostor_restir",     "path_tracer", "path_tracer_lod",  "restir_lod",     "restir_lod_enhanced",
-                                          "restir_pt", "restir_pt_enhanced", "restir_pt_2022", "stochastic_lod", "variable_rate"};
+    const std::set<std::string> withTests{"impostor",  "impostor_restir", "path_tracer",        "path_tracer_lod", "restir_lod",   "restir_lod_enhanced",
+                                          "restir_pt", "restir_pt_2022",  "restir_pt_enhanced", "stochastic_lod",  "variable_rate"};
     for (const Path& graph : graphsIn(sourceFolder / "graphs"))
         if (!withTests.contains(graph.stem().string())) runs(graph, 3);
 }

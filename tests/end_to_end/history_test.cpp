@@ -150,8 +150,9 @@ TEST_F(HistoryTest, BoilingFilterClearsWhatOutweighsItsGroup) {
     };
     for (const auto& [width, height] : {std::pair(45, 37), std::pair(150, 2), std::pair(150, 1)}) {
         Frames frames(sceneFile("ensemble_glossy"), {width, height}, passes, {"boiling.paths.reservoirs", "initial.paths.reservoirs"});
-        int cleared = 0;
+        int all = 0;
         for (const double strength : {0.9, 0.7, 0.5}) {
+            int cleared = 0;
             frames.set("boiling.strength", Json(strength));
             frames.run();
             const auto before = frames.records<Reservoir>("initial.paths.reservoirs"), after = frames.records<Reservoir>("boiling.paths.reservoirs");
@@ -172,8 +173,12 @@ TEST_F(HistoryTest, BoilingFilterClearsWhatOutweighsItsGroup) {
                     ASSERT_EQ(after[i].W, clears ? 0 : before[i].W) << x << ", " << y << " of " << width << "x" << height;
                     ASSERT_EQ(confidenceOf(after[i]), clears ? 0 : confidenceOf(before[i])) << x << ", " << y << " of " << width << "x" << height;
                 }
+            if (height > 2) {
+                EXPECT_GT(cleared, 0) << "strength " << strength;
+            }
+            all += cleared;
         }
-        EXPECT_GT(cleared, 0) << width << "x" << height;
+        EXPECT_GT(all, 0) << width << "x" << height;
     }
 }
 
