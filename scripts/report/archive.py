@@ -44,19 +44,19 @@ def without(cell, *names):
     return {name: member for name, member in cell.items() if name not in names}
 
 
-def reduced_cell(cell, rows, names):
+def reduced_cell(cell, rows):
     """Of an error study. `rows`: those of its runs and frame, whose times and rays come to stand beside the values of metrics, seed by seed."""
     short = without(cell, "runs", "image", "exposure", "referenceNoise")
     short["ms"] = {**cell["ms"], "values": [row["ms"] for row in rows]}
     short["rays"] = {**cell["rays"], "values": [sum(sum(cost["rays"].values()) for cost in row["passes"].values()) for row in rows]}
     traced = {name: {purpose: rays for purpose, rays in cost["rays"].items() if rays} for name, cost in cell["passes"].items()}
     short["passes"] = {name: {"ms": cost["ms"], "rays": traced[name]} for name, cost in cell["passes"].items()}
-    short["metrics"] = {name: without(found, "againstStart") for name, found in cell["metrics"].items() if name in names}
+    short["metrics"] = {name: without(found, "againstStart") for name, found in cell["metrics"].items()}
     return short
 
 
 def reduced(folder):
-    """The summary of a folder of results. Left out is what follows from values seed by seed, and what was measured against the finest levels."""
+    """The summary of a folder of results. Left out is what follows from values seed by seed."""
     r = load(folder)
     summary = r.summary
     if summary["missing"]:
@@ -64,9 +64,7 @@ def reduced(folder):
     short = {**summary, "machine": machine_of(summary), "scenes": [without(scene, "reference") for scene in summary["scenes"]]}
     if r.kind == "error":
         rows = {(row["run"], row["frame"]): row for row in r.rows()}
-        short["metrics"] = [metric for metric in summary["metrics"] if not metric["finest"]]
-        names = [metric["name"] for metric in short["metrics"]]
-        short["cells"] = [reduced_cell(cell, [rows[run, cell["frame"]] for run in cell["runs"]], names) for cell in summary["cells"]]
+        short["cells"] = [reduced_cell(cell, [rows[run, cell["frame"]] for run in cell["runs"]]) for cell in summary["cells"]]
         short["comparisons"] = [found for found in summary["comparisons"] if found["without"]]
         short["charts"] = [name for name in summary["charts"] if name not in ("stability", "stability_matrix")]
         short.update(sequences=[], exponents=[])

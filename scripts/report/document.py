@@ -7,6 +7,7 @@ from typing import NamedTuple
 import jinja2
 import numpy
 
+from .error_charts import decompositions_of
 from .frontier import undominated
 from .results import Missing, load
 from .statistics import Difference, compare_values, estimate
@@ -90,6 +91,15 @@ class Study:
     def error(self, technique, metric, scene=None, frame=0):
         found = self._cell(technique, scene, frame)["metrics"][metric]
         return with_interval(found["mean"], math.nan if found["halfWidth"] is None else found["halfWidth"])
+
+    def part(self, part, technique, metric, scene=None, frame=0):
+        """"squaredBias" or "variance" of a run, of a study that decomposes."""
+        self._cell(technique, scene, frame)
+        r = self.results
+        found = decompositions_of(r, r.scene(scene or r.scenes[0]), r.frame(frame), {"name": metric}).get(r.configurations[r.configuration(technique)])
+        if found is None:
+            raise Missing(f"{self.name} has no squared bias and variance of {metric} of {technique}")
+        return with_interval(*found[part])
 
     def mean(self, technique, metric, scene=None, passes=None):
         """Over all measured frames that have it: of an error, or the "ms" of some passes."""

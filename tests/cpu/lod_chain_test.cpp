@@ -3,7 +3,7 @@
 #include "lod_surface.h"
 
 #include <framework/scene/lod/chain.h>
-#include <framework/scene/lod/colors.h>
+#include <framework/scene/lod/vertex_fit.h>
 #include <framework/scene/lod/simplify.h>
 
 #include <gtest/gtest.h>
@@ -273,10 +273,10 @@ TEST(LodError, CountsColoursAndNormalsAsLengths) {
     MeshLevel sheet = painted(8, [](float, float) { return glm::vec4(0, 0, 0, 1); });
     const auto diagonal = std::sqrt(2.0f);
     const LodReference black(sheet);
-    EXPECT_LT(black.measure(sheet.triangles, sheet.colors).largest(), 1e-6f);
-    EXPECT_NEAR(black.measure(sheet.triangles, std::vector(sheet.colors.size(), glm::vec4(1, 0, 0, 1))).largest(), diagonal / 32, 1e-6f);
-    EXPECT_NEAR(black.measure(sheet.triangles, std::vector(sheet.colors.size(), glm::vec4(0, 0, 0, 0.5f))).appearance, diagonal / 64, 1e-6f);
-    EXPECT_EQ(black.measure(sheet.triangles, std::vector(sheet.colors.size(), glm::vec4(1))).distance(), 0);
+    EXPECT_LT(black.measure(sheet.triangles, {sheet.colors, {}}).largest(), 1e-6f);
+    EXPECT_NEAR(black.measure(sheet.triangles, {std::vector(sheet.colors.size(), glm::vec4(1, 0, 0, 1)), {}}).largest(), diagonal / 32, 1e-6f);
+    EXPECT_NEAR(black.measure(sheet.triangles, {std::vector(sheet.colors.size(), glm::vec4(0, 0, 0, 0.5f)), {}}).appearance, diagonal / 64, 1e-6f);
+    EXPECT_EQ(black.measure(sheet.triangles, {std::vector(sheet.colors.size(), glm::vec4(1)), {}}).distance(), 0);
 
     // The same sheet a second time, with other normals, is not of the finest level.
     sheet.colors.clear();
@@ -294,7 +294,7 @@ TEST(LodError, APatternThatMovedIsAsFarAsItMoved) {
     const MeshLevel sheet = painted(200, [](float u, float) { return glm::vec4(glm::vec3(u < 0.5f ? 0 : 1), 1); });
     std::vector<glm::vec4> moved = sheet.colors;
     for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = glm::vec4(glm::vec3(sheet.positions[v].x < 0.51f ? 0 : 1), 1);
-    const float appearance = LodReference(sheet).measure(sheet.triangles, moved).appearance;
+    const float appearance = LodReference(sheet).measure(sheet.triangles, {moved, {}}).appearance;
     EXPECT_LT(appearance, 0.0101f);
     EXPECT_GT(appearance, 0.005f);
 }
@@ -313,7 +313,7 @@ TEST(LodChain, ColoursHoldWhatShapeWouldLetGo) {
         EXPECT_LT(level.measured.distance(), 1e-6f);
         EXPECT_GE(level.error, level.measured.appearance);
         EXPECT_LT(level.measured.appearance, 0.005f) << "a ninth of what losing the spot costs";
-        for (int c = 0; c < 4; ++c) EXPECT_NEAR(meanColor(sheet, level.triangles, level.colors)[c], mean[c], 2e-3) << level.triangles.size();
+        for (int c = 0; c < 4; ++c) EXPECT_NEAR(meanColor(sheet, level.triangles, level.looks.colors)[c], mean[c], 2e-3) << level.triangles.size();
     }
 }
 
@@ -326,7 +326,7 @@ TEST(LodColors, KeepWhatIsLinear) {
         EXPECT_LT(level.error, 1e-5f);
         for (const glm::uvec3& t : level.triangles)
             for (int k = 0; k < 3; ++k)
-                for (int c = 0; c < 4; ++c) EXPECT_NEAR(level.colors[t[k]][c], sheet.colors[t[k]][c], 1e-4f);
+                for (int c = 0; c < 4; ++c) EXPECT_NEAR(level.looks.colors[t[k]][c], sheet.colors[t[k]][c], 1e-4f);
     }
 }
 
@@ -342,7 +342,7 @@ TEST(LodColors, AverageNoise) {
             coarse.push_back({a, a + 8 * 65 + 8, a + 8});
             coarse.push_back({a, a + 8 * 65, a + 8 * 65 + 8});
         }
-    const std::vector<glm::vec4> colors = coarseColors(sheet, coarse, std::vector<std::uint32_t>(coarse.size(), 0));
+    const std::vector<glm::vec4> colors = fitVertices(sheet, coarse, std::vector<std::uint32_t>(coarse.size(), 0)).colors;
     const glm::dvec4 mean = meanColor(sheet, sheet.triangles, sheet.colors), kept = meanColor(sheet, coarse, colors);
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(kept[c], mean[c], 1e-3);
     EXPECT_GT(std::abs(meanColor(sheet, coarse, sheet.colors)[0] - mean[0]), 5e-3) << "the vertices that are left would do, and the test asks nothing";
@@ -362,8 +362,68 @@ TEST(LodColors, SidesKeepTheirOwn) {
     leaf.normals.resize(2 * count, {0, 1, 0});
     leaf.colors.resize(2 * count, {0, 1, 0, 1});
     leaf.materials.assign(leaf.triangles.size(), 0);
-    const std::vector<glm::vec4> colors = coarseColors(leaf, leaf.triangles, leaf.materials);
+    const std::vector<glm::vec4> colors = fitVertices(leaf, leaf.triangles, leaf.materials).colors;
     for (std::uint32_t v = 0; v < 2 * count; ++v) EXPECT_NEAR(colors[v].r, v < count ? 1 : 0, 1e-4f);
+}
+
+double degreesBetween(const glm::vec3& a, const glm::vec3& b) {
+    return glm::degrees(std::acos(std::clamp(double(glm::dot(a, b)) / (glm::length(a) * glm::length(b)), -1.0, 1.0)));
+}
+
+// If this fails, smooth things get dents: the mean over what a vertex stands for isn't its normal, unless it lies in the middle of it.
+TEST(LodNormals, KeepWhatIsSmooth) {
+    MeshLevel bowl = gridSurface(64, 64, [](float u, float v) { return glm::vec3(u, v, (u - 0.5f) * (u - 0.5f) + (v - 0.5f) * (v - 0.5f)); });
+    const auto normalOf = [&](std::uint32_t v) {
+        return glm::normalize(glm::vec3(1 - 2 * bowl.positions[v].x, 1 - 2 * bowl.positions[v].y, 1));
+    };
+    for (std::uint32_t v = 0; v < bowl.positions.size(); ++v) bowl.normals.push_back(normalOf(v));
+    const LodChain chain = buildLodChain(bowl, {.levels = 4, .ratio = 2});
+    ASSERT_EQ(chain.coarser.size(), 3u) << chain.end;
+    for (const LodLevel& level : chain.coarser) {
+        double largest = 0;
+        for (const glm::uvec3& t : level.triangles)
+            for (int k = 0; k < 3; ++k) largest = std::max(largest, degreesBetween(level.looks.normals[t[k]], normalOf(t[k])));
+        std::printf("bowl, %zu triangles: normals turn by %.2f degrees at most\n", level.triangles.size(), largest);
+        EXPECT_LT(largest, 1.5);
+    }
+}
+
+// If this fails, a bump that isn't there any more still turns a whole slope: vertices that happen to be left speak for all that went.
+TEST(LodNormals, AverageBumps) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> tilt(0, 0.3f);
+    MeshLevel sheet = gridSurface(64, 64, [](float u, float v) { return glm::vec3(u, 0, v); });
+    for (std::size_t v = 0; v < sheet.positions.size(); ++v) sheet.normals.push_back(glm::normalize(glm::vec3(tilt(random), 1, tilt(random))));
+    const auto spread = [&](const LodChain& chain) {
+        double sum = 0;
+        const auto& [triangles, groups, looks, error, measured] = chain.coarser.back();
+        for (const glm::uvec3& t : triangles) sum += std::pow(degreesBetween(looks.normals[t.x], {0, 1, 0}), 2) / double(triangles.size());
+        return std::sqrt(sum);
+    };
+    const double kept = spread(buildLodChain(sheet, {.levels = 4, .ratio = 2, .fitNormals = false}));
+    const double fitted = spread(buildLodChain(sheet, {.levels = 4, .ratio = 2}));
+    std::printf("bumps: normals lie %.1f degrees about the mean where they are kept, %.1f where they are fitted\n", kept, fitted);
+    EXPECT_GT(kept, 15);
+    EXPECT_LT(fitted, 0.6 * kept) << "a mean of the eight that went into one would have 0.35 of it, least squares, which keep slopes, about 0.54";
+}
+
+// A box keeps its edges: what meets there are two normals, and neither is of the other's side.
+TEST(LodNormals, HardEdgesStay) {
+    MeshLevel roof = gridSurface(32, 32, [](float u, float v) { return glm::vec3(0.5f * u, 0.5f * u, v); });
+    const auto count = std::uint32_t(roof.positions.size());
+    const MeshLevel other = gridSurface(32, 32, [](float u, float v) { return glm::vec3(0.5f + 0.5f * u, 0.5f - 0.5f * u, v); });
+    for (const glm::uvec3& t : other.triangles) roof.triangles.push_back(t + count);
+    roof.positions.insert(roof.positions.end(), other.positions.begin(), other.positions.end());
+    roof.uv0.clear();
+    roof.materials.assign(roof.triangles.size(), 0);
+    const glm::vec3 left = glm::normalize(glm::vec3(-1, 1, 0)), right = glm::normalize(glm::vec3(1, 1, 0));
+    roof.normals.assign(count, left);
+    roof.normals.resize(2 * count, right);
+    const LodChain chain = buildLodChain(roof, {.levels = 3, .ratio = 4});
+    ASSERT_EQ(chain.coarser.size(), 2u) << chain.end;
+    for (const LodLevel& level : chain.coarser)
+        for (const glm::uvec3& t : level.triangles)
+            for (int k = 0; k < 3; ++k) EXPECT_LT(degreesBetween(level.looks.normals[t[k]], t[k] < count ? left : right), 0.5);
 }
 
 // Where triangles meet in one place with other opacities, they are as apart as where colours differ.

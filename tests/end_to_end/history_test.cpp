@@ -6,7 +6,6 @@
 #include <framework/image/image_file.h>
 #include <framework/shaders/world/primary_hit.h>
 
-#include <glm/gtc/packing.hpp>
 
 namespace lodestir::test {
 namespace {
@@ -35,8 +34,6 @@ protected:
                 {"error", node("image_error", {{"test", "columns"}, {"reference", "black"}}, {{"metric", "mse"}})}};
     }
 };
-
-float confidenceOf(const Reservoir& r) { return glm::unpackHalf1x16(std::uint16_t(r.shape >> SHAPE_CONFIDENCE)); }
 
 // If this fails, the map counts what isn't a copy, or misses one: at borders, across groups, in frames of one row, for pixels without a path.
 TEST_F(HistoryTest, DuplicationMapCountsCopies) {

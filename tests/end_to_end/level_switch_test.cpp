@@ -98,6 +98,33 @@ TEST_F(Images, OneOfTwoInstances) {
     sumOf(frames.image("temporal.landed"));
 }
 
+// Confidence is lost with what it was about; as published it stays.
+TEST_F(Images, ConfidenceStaysWhereTheCentreIsFound) {
+    const std::vector<SheetLevel> levels{{.cells = 20, .place = bowl}, {.cells = 6, .place = bowl}};
+    const Path scene = write("confidence", levels, switchAt(3));
+    Frames frames(scene, {48, 32}, reuseNodes({{"backup", 0}}), {"hits.hits", "temporal.paths.reservoirs"});
+    for (const char* mapping : {"uv", "triangle"}) {
+        for (const char* inherits : {"where_found", "always"}) {
+            frames.set("temporal.vertexMapping", Json(mapping));
+            frames.set("temporal.inherits", Json(inherits));
+            frames.restart(0, 7);
+            frames.run(4);
+            const auto paths = frames.records<Reservoir>("temporal.paths.reservoirs");
+            const auto hits = frames.records<PrimaryHit>("hits.hits");
+            const bool lost = mapping == std::string("triangle") && inherits == std::string("where_found");
+            std::size_t onSheet = 0, unlike = 0;
+            for (std::size_t i = 0; i < paths.size(); ++i) {
+                const bool sheet = hits[i].primitive != NONE;
+                onSheet += sheet;
+                unlike += confidenceOf(paths[i]) != (sheet && lost ? 1 : 4);
+            }
+            EXPECT_GT(onSheet, 200u);
+            EXPECT_EQ(unlike, 0u) << mapping << ", " << inherits;
+            std::printf("confidence: %s, %s: %zu of %zu on the sheet, %zu unlike\n", mapping, inherits, onSheet, paths.size(), unlike);
+        }
+    }
+}
+
 // What is shown is counted: triangles over all instances, the bytes of a level once however many show it.
 TEST_F(Images, CountsWhatIsShown) {
     const std::vector<SheetLevel> levels{{.cells = 20, .place = bowl}, {.cells = 6, .place = bowl}};

@@ -4,9 +4,10 @@
 #include "frames.h"
 #include "statistics.h"
 
+#include <passes/restir/reservoir.h>
 #include <passes/restir/shift_check/shift_check.h>
 
-#include <passes/restir/reservoir.h>
+#include <glm/gtc/packing.hpp>
 
 #include <array>
 #include <map>
@@ -30,6 +31,9 @@ inline OrderedJson node(const std::string& type, OrderedJson in, OrderedJson set
     return {{"type", type}, {"in", std::move(in)}, {"set", std::move(set)}};
 }
 inline OrderedJson shadeNode(const std::string& paths) { return node("shade_reservoirs", {{"paths", paths}}); }
+
+/// c of a reservoir, frames.
+inline float confidenceOf(const Reservoir& r) { return glm::unpackHalf1x16(std::uint16_t(r.shape >> SHAPE_CONFIDENCE)); }
 
 struct ShiftSessionSetup {
     Path scene;

@@ -6,7 +6,6 @@
 #include <framework/study/ensemble/ensemble.h>
 #include <passes/rate/trace_rate.h>
 
-#include <glm/gtc/packing.hpp>
 
 namespace lodestir::test {
 namespace {
@@ -20,7 +19,6 @@ OrderedJson nodes(const OrderedJson& patch = OrderedJson::object()) {
 }
 OrderedJson rateSet(const OrderedJson& set) { return {{"rate", {{"set", set}}}}; }
 
-float confidenceOf(const Reservoir& r) { return glm::unpackHalf1x16(std::uint16_t(r.shape >> SHAPE_CONFIDENCE)); }
 bool traced(const std::vector<TraceRate>& rates, std::size_t i) { return rates[i].source == i; }
 
 bool isFinite(const Reservoir& r) {

@@ -23,7 +23,7 @@ namespace {
 struct LodArguments {
     std::string model, out;
     LodModelOptions options;
-    bool json = false, force = false, impostor = false;
+    bool json = false, force = false, impostor = false, keepNormals = false;
     BakeOptions bake;
 };
 
@@ -140,6 +140,7 @@ int prepareModel(LodArguments& arguments) {
     if (arguments.out.empty() && !arguments.impostor) refuseOption("--out", "is required, unless --impostor is all that is asked for");
     Json json = Json::object();
     json["model"] = Json(arguments.model);
+    arguments.options.chain.fitNormals = !arguments.keepNormals;
     if (!arguments.out.empty()) buildLevels(arguments, json);
     if (arguments.impostor) {
         arguments.bake.meshes = arguments.options.meshes;
@@ -168,6 +169,7 @@ void addLod(CLI::App& app, std::function<int()>& run) {
     command.option("--ratio", arguments->options.chain.ratio, "triangles of a level over those of the next: 2 or 4 (2)")
         .oneOf({2, 4});
     command.option("--mesh", arguments->options.meshes, "only meshes of this name").repeatable();
+    command.flag("--keep-normals", arguments->keepNormals, "vertices of coarser levels keep the finest level's normals");
     command.flag("--force", arguments->force, "write over the model itself where --out names it");
     command.flag("--json", arguments->json, "facts as JSON");
     const auto impostor = command.flag("--impostor", arguments->impostor, "bake impostors of the meshes into the cache, where runs find them");

@@ -124,6 +124,13 @@ std::size_t GlbFile::addColors(std::span<const glm::vec4> colors) {
     return json["accessors"].size() - 1;
 }
 
+std::size_t GlbFile::addNormals(std::span<const glm::vec3> normals) {
+    const std::size_t view = addView(std::as_bytes(normals));
+    json["bufferViews"][view]["target"] = arrayBuffer;
+    json["accessors"].push_back({{"bufferView", view}, {"componentType", floatType}, {"count", normals.size()}, {"type", "VEC3"}});
+    return json["accessors"].size() - 1;
+}
+
 void GlbFile::useExtension(const std::string& name) {
     for (const OrderedJson& used : json["extensionsUsed"])
         if (used == name) return;

@@ -22,6 +22,8 @@ public:
     std::size_t addIndices(std::span<const std::uint32_t> indices, std::size_t vertices);
     /// Appends colours as a VEC4 accessor and returns its number: of 16 bits where all are within [0, 1], else floats.
     std::size_t addColors(std::span<const glm::vec4> colors);
+    /// Appends normals as a VEC3 accessor of floats and returns its number.
+    std::size_t addNormals(std::span<const glm::vec3> normals);
     void useExtension(const std::string& name);
 
     /// The container (glTF 2.0, section 4.4). Error when it would be larger than 4 GB.

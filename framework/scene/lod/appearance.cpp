@@ -52,7 +52,7 @@ double uvLength(const MeshLevel& level, const std::vector<glm::vec2>& uvs) {
 Appearance::Appearance(const MeshLevel& level, unsigned parts) {
     const Box box = boundsOfTriangles(level);
     const double diagonal = box.isEmpty() ? 0 : glm::length(glm::dvec3(box.high) - glm::dvec3(box.low));
-    const auto frameLength = float(frameShare * diagonal);
+    frameLength_ = float(frameShare * diagonal);
     colorLength_ = float(colorShare * diagonal);
     const bool normals = (parts & frames) != 0 && !level.normals.empty(), tangents = (parts & frames) != 0 && !level.tangents.empty();
     const std::array chosen{(parts & uv0) != 0 && !level.uv0.empty(), (parts & uv1) != 0 && !level.uv1.empty()};
@@ -67,8 +67,8 @@ Appearance::Appearance(const MeshLevel& level, unsigned parts) {
         for (int i = 0; i < v.length(); ++i) values_.push_back(length * v[i]);
     };
     for (std::size_t v = 0; v < level.positions.size(); ++v) {
-        if (normals) put(direction(level.normals[v]), frameLength);
-        if (tangents) put(direction(glm::vec3(level.tangents[v])), frameLength);
+        if (normals) put(direction(level.normals[v]), frameLength_);
+        if (tangents) put(direction(glm::vec3(level.tangents[v])), frameLength_);
         for (std::size_t set = 0; set < 2; ++set)
             if (chosen[set]) put(isFinite((*uvs[set])[v]) ? (*uvs[set])[v] : glm::vec2(0), lengths[set]);
         if (painted) put(level.colors[v], colorLength_);
@@ -78,6 +78,11 @@ Appearance::Appearance(const MeshLevel& level, unsigned parts) {
 void Appearance::paint(const std::vector<glm::vec4>& values) {
     for (std::size_t v = 0; v < values.size(); ++v)
         for (int i = 0; i < 4; ++i) values_[v * size_ + colorPlace_ + std::size_t(i)] = colorLength_ * values[v][i];
+}
+
+void Appearance::turn(const std::vector<glm::vec3>& values) {
+    for (std::size_t v = 0; v < values.size(); ++v)
+        for (int i = 0; i < 3; ++i) values_[v * size_ + std::size_t(i)] = frameLength_ * direction(values[v])[i];
 }
 
 /// By the region of the plane that the point projects to (Ericson 2005, section 5.1.5), which needs nothing but products of vectors and so

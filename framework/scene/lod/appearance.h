@@ -24,12 +24,13 @@ public:
     std::size_t size() const { return size_; }  ///< of this level
     std::span<const float> of(std::uint32_t vertex) const { return std::span(values_).subspan(vertex * size_, size_); }
     std::size_t frameSize() const { return frameSize_; }  ///< the first numbers are of normals and tangents
-    /// Gives all vertices other colours.
+    /// Gives all vertices other colours, other normals.
     void paint(const std::vector<glm::vec4>& values);
+    void turn(const std::vector<glm::vec3>& values);
 
 private:
     std::size_t size_ = 0, frameSize_ = 0, colorPlace_ = 0;
-    float colorLength_ = 0;
+    float frameLength_ = 0, colorLength_ = 0;
     std::vector<float> values_;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/lod/chain.h>
 
-#include <framework/scene/lod/colors.h>
 #include <framework/scene/lod/simplify.h>
 
 #include <fmt/format.h>
@@ -24,22 +23,23 @@ LodChain buildLodChain(const MeshLevel& finest, const LodChainOptions& options) 
     const LodReference reference(finest);
     Simplifier simplifier(finest);
     LodChain chain{.hasUvs = reference.hasUvs(), .radius = reference.radius()};
-    std::size_t before = finest.triangles.size();
+    MeshLevel before = finest;
     float error = 0;
     for (int k = 1; k < options.levels; ++k) {
         const auto target = std::size_t(double(finest.triangles.size()) / std::pow(options.ratio, k));
         if (target < fewestTriangles) {
-            chain.end = fmt::format("{} triangle{} too few to go on", before, before == 1 ? " is" : "s are");
+            chain.end = fmt::format("{} triangle{} too few to go on", before.triangles.size(), before.triangles.size() == 1 ? " is" : "s are");
             break;
         }
         simplifier.reduce(target);
         Simplified simplified = simplifier.result();
-        if (double(simplified.triangles.size()) > leastProgress * double(before)) {
-            chain.end = fmt::format("{} triangles cannot be made fewer without tearing the surface or its UVs", before);
+        if (double(simplified.triangles.size()) > leastProgress * double(before.triangles.size())) {
+            chain.end = fmt::format("{} triangles cannot be made fewer without tearing the surface or its UVs", before.triangles.size());
             break;
         }
-        std::vector<glm::vec4> colors = coarseColors(finest, simplified.triangles, simplified.groups);
-        const LodError measured = reference.measure(simplified.triangles, colors);
+        VertexFit looks = fitVertices(before, simplified.triangles, simplified.groups);
+        if (!options.fitNormals) looks.normals = finest.normals;
+        const LodError measured = reference.measure(simplified.triangles, looks);
         if (measured.distance() > largestError * chain.radius) {
             chain.end = fmt::format("with {} triangles it would be off by {:.3g}, more than a quarter of its radius",
                                     simplified.triangles.size(), measured.distance());
@@ -50,8 +50,11 @@ LodChain buildLodChain(const MeshLevel& finest, const LodChainOptions& options) 
             break;
         }
         error = std::max(error, measured.largest());
-        before = simplified.triangles.size();
-        chain.coarser.push_back({std::move(simplified.triangles), std::move(simplified.groups), std::move(colors), error, measured});
+        before.triangles = simplified.triangles;
+        before.materials = simplified.groups;
+        before.colors = looks.colors;
+        before.normals = looks.normals;
+        chain.coarser.push_back({std::move(simplified.triangles), std::move(simplified.groups), std::move(looks), error, measured});
     }
     return chain;
 }

@@ -2,6 +2,7 @@
 // A chain of coarser and coarser levels of one mesh, with measured errors.
 #pragma once
 #include <framework/scene/lod/error.h>
+#include <framework/scene/lod/vertex_fit.h>
 
 #include <string>
 
@@ -10,12 +11,13 @@ namespace lodestir {
 struct LodChainOptions {
     int levels = 4;    ///< in all, the finest included: 2..maxLevels
     double ratio = 2;  ///< triangles of a level over those of the next coarser one
+    bool fitNormals = true;  ///< else vertices keep the finest level's
 };
 
 struct LodLevel {
     std::vector<glm::uvec3> triangles;  ///< of the finest level's vertices
     std::vector<std::uint32_t> groups;  ///< of each triangle, as MeshLevel::materials
-    std::vector<glm::vec4> colors;      ///< of the finest level's vertices, as this level shows them; empty where there are none
+    VertexFit looks;                    ///< of the finest level's vertices, as this level shows them
     float error = 0;  ///< largest distance to the finest level in space and in what is seen, never below that of the level before
     LodError measured;
 };
@@ -27,7 +29,7 @@ struct LodChain {
     float radius = 0;  ///< of a sphere around the finest level
 };
 
-/// Simplifies the finest level further and further, and measures each level against it. A level that hardly has fewer triangles than the
+/// Simplifies the finest level further and further, fits the colours and normals of each to those of the level before, and measures it against the finest. A level that hardly has fewer triangles than the
 /// one before, is farther from the finest than a quarter of the radius, or has lost a twentieth of the UVs, is not made, nor are coarser ones.
 LODESTIR_API LodChain buildLodChain(const MeshLevel& finest, const LodChainOptions& options);
 

@@ -162,7 +162,7 @@ LodReference::LodReference(const MeshLevel& finest)
     chart_.emplace(uvs_, finest.triangles);
 }
 
-LodError LodReference::measure(const std::vector<glm::uvec3>& coarse, const std::vector<glm::vec4>& colors) const {
+LodError LodReference::measure(const std::vector<glm::uvec3>& coarse, const VertexFit& looks) const {
     const auto coarsePoints = spread(finest_.positions, coarse, spreadPoints);
     const auto finestPoints = spread(finest_.positions, finest_.triangles, spreadPoints);
     LodError error;
@@ -171,7 +171,8 @@ LodError LodReference::measure(const std::vector<glm::uvec3>& coarse, const std:
     error.fromFinest = farthest(finest_.positions, finest_.triangles, finestPoints, coarseSurface);
     if (appearance_.size() > 0) {
         Appearance painted = appearance_;
-        painted.paint(colors);
+        painted.paint(looks.colors);
+        painted.turn(looks.normals);
         error.appearance =
             std::max(leastAlike(finest_.positions, coarse, painted, coarsePoints, finest_.triangles, appearance_, surface_),
                      leastAlike(finest_.positions, finest_.triangles, appearance_, finestPoints, coarse, painted, coarseSurface));

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // How far a coarser level is from the finest one: in space, both ways, in all that is seen, and from point to point of the same UV.
 #pragma once
-#include <framework/scene/lod/appearance.h>
 #include <framework/scene/bvh/triangle_tree.h>
+#include <framework/scene/lod/appearance.h>
+#include <framework/scene/lod/vertex_fit.h>
 
 #include <optional>
 
@@ -27,10 +28,10 @@ class LODESTIR_API LodReference {
 public:
     explicit LodReference(const MeshLevel& finest);
 
-    /// Measures triangles made of the finest level's own vertices, with colours of their own or (empty) the finest level's. Points: for
+    /// Measures triangles made of the finest level's own vertices, with colours and normals of their own or (empty) the finest level's. Points: for
     /// distances in space all vertices, all triangle centres, and 20,000 that are spread over each surface by area; for the rest those
     /// 20,000. The same ones every time.
-    LodError measure(const std::vector<glm::uvec3>& coarse, const std::vector<glm::vec4>& colors = {}) const;
+    LodError measure(const std::vector<glm::uvec3>& coarse, const VertexFit& looks = {}) const;
     bool hasUvs() const { return !uvs_.empty(); }
     float radius() const { return radius_; }  ///< of a sphere around the middle of the bounds
 

@@ -214,7 +214,7 @@ private:
             facts.coarserTriangles.push_back(level.triangles.size());
             level.triangles = {};
             level.groups = {};
-            level.colors = {};
+            level.looks = {};
         }
         if (levelMeshes.empty()) return;
         facts.coverages = screenCoverages(chain);
@@ -232,7 +232,7 @@ private:
         }
     }
 
-    /// The mesh with the triangles of a level: same vertices but for their colours, same materials. What has no triangles (points, lines) stays.
+    /// The mesh with the triangles of a level: same vertices but for their colours and normals, same materials. What has no triangles (points, lines) stays.
     std::size_t addMesh(std::size_t mesh, const GltfSurface& surface, const LodLevel& level, std::size_t number) {
         std::vector<std::vector<std::uint32_t>> indices(surface.starts.size() - 1);
         for (std::size_t t = 0; t < level.triangles.size(); ++t)
@@ -247,8 +247,11 @@ private:
                 primitive.erase("mode");
                 if (primitive.contains("extensions")) primitive["extensions"].erase("KHR_draco_mesh_compression");  // of other indices
                 primitive["indices"] = glb_.addIndices(indices[p], vertices);
-                if (json["primitives"][p]["attributes"].contains("COLOR_0"))
-                    primitive["attributes"]["COLOR_0"] = glb_.addColors(std::span(level.colors).subspan(surface.starts[p], vertices));
+                const OrderedJson& attributes = json["primitives"][p]["attributes"];
+                if (attributes.contains("COLOR_0"))
+                    primitive["attributes"]["COLOR_0"] = glb_.addColors(std::span(level.looks.colors).subspan(surface.starts[p], vertices));
+                if (options_.chain.fitNormals && attributes.contains("NORMAL") && !level.looks.normals.empty())
+                    primitive["attributes"]["NORMAL"] = glb_.addNormals(std::span(level.looks.normals).subspan(surface.starts[p], vertices));
             }
             primitives.push_back(std::move(primitive));
         }

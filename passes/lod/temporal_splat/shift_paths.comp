@@ -75,12 +75,13 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
         }
     }
     PrimaryHit centre = hits(place(pixel)), start = hit.hit;
-    uint wanted = !splats ? MAP_CONNECTED : way == FORTH ? MAP_CONNECTED | MAP_FIRST : MAP_CONNECTED | MAP_FIRST | MAP_CENTRE;
+    uint wanted = !splats ? MAP_CONNECTED : MAP_CONNECTED | MAP_FIRST;
+    if (splats && way == BACK && params.inherits == inherits_where_found) wanted |= MAP_CENTRE;
     ivec2 here = pixel, there = r.before;  // the pixels by which levels are chosen, if they are chosen by pixels: then nothing is splatted
     if (way == FORTH) here = r.before, there = pixel;
     RayNumbers numbers = RayNumbers(pathNumber(rules(), from, here, path.seed), pathNumber(rules(), to, there, path.seed));
     MappedPath mapped = mapPath(from, to, now, numbers, uv(), levelMapping(), wanted, centre, path, hit);
-    // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not.
+    // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not. All of it is where that isn't asked.
     if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;
     PROBE_TEXT_IF(none, "a vertex has no counterpart on the level that is shown there", !mapped.isThere);
     if (!mapped.isThere) return shiftOfNothing();

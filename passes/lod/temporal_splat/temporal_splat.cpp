@@ -11,6 +11,7 @@
 
 using namespace lodestir;
 
+enum class Inherits { where_found, always };
 enum class Matching { object, world };
 enum class VertexMapping { triangle, uv, uv_no_matching, primary_only, reconnection_only };
 
@@ -49,6 +50,9 @@ struct TemporalSplat final : Pass {
     Param<Matching>          matching{this, "matching", Matching::object, {"object", "world"},
                                       "where points of one texture coordinate are compared by distance: as the mesh was made, or as this frame places it "
                                       "(which differs where a scale isn't uniform)"};
+    Param<Inherits>          inherits{this, "inherits", Inherits::where_found, {"where_found", "always"},
+                                      "a pixel's confidence of its history: only where what its centre sees is found on last frame's level, or, as published, "
+                                      "also where no path of last frame can have arrived"};
     SuffixRule               suffix{this};
     PassThrough              off{this, paths, pathsOut};
     InPlace                  over{this, paths, pathsOut};
