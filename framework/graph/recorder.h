@@ -115,9 +115,11 @@ public:
         memory.keep[std::size_t(memory.current)] = std::move(keep);
         if (!same) ++memory.version;
     }
-    void provideScene(const Port& world, float at) override {
-        const FrameWorld made = s_.world().at(at, s_.size_);
-        provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep, {});
+    void provideScene(const Port& world, float at, float shutter) override {
+        FrameWorld made = s_.world().at(at, s_.size_, shutter);
+        const World meaning = made.value;
+        if (shutter > 0) made.value.frameKey = frameKey(*this);
+        provide(world, std::as_bytes(std::span(&made.value, 1)), made.keep, std::as_bytes(std::span(&meaning, 1)));
     }
     Memory objects(const In<World>& posed) override {
         std::optional<World> pose;

@@ -11,7 +11,12 @@ struct SceneNode final : Pass {
     Param<bool> animate{this, "animate", true, "camera keyframes and node animation follow the frames; off: the pose of frame `pose`"};
     Param<int>  pose{this, "pose", 0, {0, 1000000}, "frame whose pose is held while `animate` is off"};
 
-    void execute(Frame& frame) override { frame.provideScene(world, animate ? float(frame.index()) : float(int(pose))); }
+    Param<float> shutter{this, "shutter", 0, {0, 1},
+                         "frames for which it is open: while it is, camera and objects go straight from where the frame has them towards where the next one "
+                         "does (motion blur); meshes that bend and lights without extent stay. 0.5 is a film camera's 180 degrees"};
+    Fact        blurs{this, "MOTION_BLUR", [this](const Scene&) { return shutter > 0; }};
+
+    void execute(Frame& frame) override { frame.provideScene(world, animate ? float(frame.index()) : float(int(pose)), shutter); }
 };
 
 }  // namespace

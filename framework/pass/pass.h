@@ -98,8 +98,9 @@ public:
     /// that is new each frame or random numbers, by `meaning`: beside parameters and inputs of this frame all that it depends on.
     virtual void provide(const Port& port, std::span<const std::byte> value, std::shared_ptr<const void> keep,
                          std::optional<std::span<const std::byte>> meaning = {}) = 0;
-    /// Gives an output the World of the loaded scene as it stands at a frame (fractions are fine).
-    virtual void provideScene(const Port& world, float at) = 0;
+    /// Gives an output the World of the loaded scene as it stands at a frame (fractions are fine), seen while the shutter is open for so many frames from
+    /// there on; shaders see that where a Fact of the pass defines MOTION_BLUR.
+    virtual void provideScene(const Port& world, float at, float shutter) = 0;
     /// Where a World lies that holds each mesh of the scene by itself: instance m is mesh m, untransformed, at its finest level, in the pose that the World
     /// of a wired input has, or of frame 0 where the input is unwired. There is no top level over them and no light: rays are traced in
     /// onlyInstance(w, m) (trace/reference.glsl). What comes next in this pass sees it, and sceneRecords() is of that pose.
@@ -107,6 +108,9 @@ public:
     virtual const Scene& scene() const = 0;
     virtual SceneRecords sceneRecords() const = 0;  ///< lives as long as the scene
 };
+
+/// World.frameKey of a frame, by which its pixels draw numbers; the meaning of such a World (Frame::provide) is what it is without.
+inline std::uint32_t frameKey(const Frame& frame) { return frame.seed() * 0x9e3779b9u + frame.index() * 0x85ebca6bu; }
 
 class LODESTIR_API Pass {
 public:

@@ -17,6 +17,7 @@
 #include "restir/sample_hit.h"
 #include "trace/known_ray.glsl"
 #include "world/camera.glsl"
+#include "world/exposure.glsl"
 
 const uint SHIFT_WALK = 0u;     // `ray` looks for the next vertex
 const uint SHIFT_CONNECT = 1u;  // it asks whether y_{k-1} sees x_k
@@ -72,7 +73,7 @@ const uint FORTH = 0u;  // of the path that is to be reused
 const uint BACK = 1u;   // of the path it is weighed against, to where the other was made
 const uint WAYS = 2u;
 
-/// Starts a shift in an image of `size` pixels. False: there is nothing to shift.
+/// Starts a shift in an image of `size` pixels of a frame's World. False: there is nothing to shift.
 bool shiftStart(inout Shift t, World w, ShiftRules rules, ShiftTask task, uvec2 size) {
     t.path = task.path;
     t.hit = task.base;
@@ -84,6 +85,7 @@ bool shiftStart(inout Shift t, World w, ShiftRules rules, ShiftTask task, uvec2 
     if (t.known) t.hit.hit = task.first;
     else t.hit.hit = PrimaryHit(NONE, NONE, vec2(0.0), task.base.hit.film, task.base.hit.lens);
     t.number = pathNumber(rules, w, task.to, task.path.seed);
+    w = atTime(w, t.number);
     t.state = task.carried ? SHIFT_SEE : SHIFT_WALK;
     t.vertex = 0u;
     t.resumes = false;

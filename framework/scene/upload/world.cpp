@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/scene/upload/world.h>
 
+#include <framework/core/error.h>
 #include <framework/scene/axes.h>
 #include <framework/scene/upload/environment_table.h>
 #include <framework/scene/level_policy.h>
@@ -86,6 +87,14 @@ bool isInvertible(const glm::mat4& matrix) {
     return volume != 0 && std::isfinite(volume);
 }
 
+/// Does nothing turn inside out, or lose its volume, on the straight way from one matrix to the other? By the signs of the volume on the way.
+bool keepsSide(const glm::mat4& from, const glm::mat4& to) {
+    const glm::dmat3 a(from), b(to);
+    for (int i = 1; i <= 8; ++i)
+        if (!(glm::determinant(a) * glm::determinant(a + (b - a) * (i / 8.0)) > 0)) return false;
+    return true;
+}
+
 CameraRecord cameraRecord(const CameraKey& camera, glm::uvec2 size) {
     CameraRecord record{};
     const ViewAxes axes = viewAxes(camera);
@@ -122,7 +131,8 @@ struct WorldBuilder::Moving {
     std::shared_ptr<const Shapes> shapes;
     std::shared_ptr<const BottomLevels::Table> bottomLevels;
     gpu::Array<BvhNode> nodes;
-    gpu::Buffer traceInstances, instances, lights;
+    gpu::Buffer traceInstances, instances, closing, lights;
+    bool moves = false;  ///< some instance, while the shutter is open
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
     std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
     float radius = 1;
@@ -188,7 +198,7 @@ SceneRecords WorldBuilder::records() const {
     return {g.levels, g.primitives.values(), g.vertices.values(), g.positions.values()};
 }
 
-std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose& pose) {
+std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose& pose, const Pose& end) {
     auto moving = std::make_shared<Moving>();
     if (scene_.deforms()) geometry_->pose(scene_, pose);
     moving->shapes = shapes_ ? shapes_ : uploadShapes();
@@ -199,6 +209,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     std::vector<Box> boxes;
     std::vector<TraceInstance> traced;
     std::vector<InstanceRecord> records;
+    std::vector<glm::vec4> closing(3 * scene_.instances.size());
     Box all;
     for (const Instance& instance : scene_.instances) {
         const glm::mat4 toWorld = scene_.instanceMatrix(instance, pose.nodes);
@@ -213,11 +224,19 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
             continue;
         }
         boxes.push_back(transformed(geometry_->bounds[instance.mesh], toWorld));
-        all.add(boxes.back());
         traced.push_back(traceInstance(instance.mesh, geometry_->grids[instance.mesh], toWorld));
         record.rounding = traceRounding(toWorld);
         const std::vector<glm::mat4> joints = jointMatrices(scene_, scene_.meshes[instance.mesh], pose.nodes);
         record.flags = glm::determinant(glm::mat3(joints.empty() ? toWorld : joints[0])) < 0 ? INSTANCE_MIRRORED : 0;
+        if (const glm::mat4 there = scene_.instanceMatrix(instance, end.nodes); there != toWorld && keepsSide(toWorld, there)) {
+            record.flags |= INSTANCE_MOVES;
+            moving->moves = true;
+            putRows(there, &closing[3 * records.size()]);
+            // Points go straight, so what they sweep lies between. A ray's way there is rounded once more on its way to where the instance was.
+            boxes.back().add(transformed(geometry_->bounds[instance.mesh], there));
+            record.rounding = 2.0f * glm::max(record.rounding, traceRounding(there));
+        }
+        all.add(boxes.back());
         records.push_back(record);
     }
     if (!all.isEmpty()) {
@@ -240,17 +259,19 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     if (scene_.animation.empty()) geometry_->nodes = {};  // there is no other pose
     moving->traceInstances = gpu::makeBuffer(device_, std::span<const TraceInstance>(traced), "trace instances");
     moving->instances = gpu::makeBuffer(device_, std::span<const InstanceRecord>(records), "instances");
+    if (moving->moves) moving->closing = gpu::makeBuffer(device_, std::span<const glm::vec4>(closing), "instances, as the shutter closes");
     moving->lights = gpu::makeBuffer(device_, std::span<const LightRecord>(lights.lights), "lights");
     moving->lightCount = std::uint32_t(lights.lights.size());
     moving->environmentLight = lights.environmentLight;
     return moving;
 }
 
-void WorldBuilder::moveTo(float frame) {
-    Pose pose = poseAt(scene_, frame);
-    if (moving_ && pose == pose_) return;
-    moving_ = makeMoving(pose);
-    pose_ = std::move(pose);
+void WorldBuilder::moveTo(float frame, float shutter) {
+    Pose opening = poseAt(scene_, frame), closing = shutter > 0 ? poseAt(scene_, frame + shutter) : opening;
+    if (moving_ && opening == opening_ && closing == closing_) return;
+    moving_ = makeMoving(opening, closing);
+    opening_ = std::move(opening);
+    closing_ = std::move(closing);
 }
 
 World WorldBuilder::placedWorld() const {
@@ -265,6 +286,7 @@ World WorldBuilder::placedWorld() const {
     w.topRoot = moving_->topRoot;
     w.instanceCount = std::uint32_t(scene_.instances.size());
     w.instances = moving_->instances.address();
+    w.closing = moving_->moves ? moving_->closing.address() : 0;
     w.primitives = geometry_->primitives.buffer().address();
     w.meshLevels = fixed_->levels.address();
     w.meshes = moving_->shapes->meshes.address();
@@ -285,8 +307,10 @@ World WorldBuilder::placedWorld() const {
     return w;
 }
 
-FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
-    moveTo(frame);
+FrameWorld WorldBuilder::at(float frame, glm::uvec2 size, float shutter) {
+    if (shutter > 0 && bottomLevels_)
+        throw Error("the shutter is open, and rays that the driver traces see nothing move", "trace them by packet or lane: --rays lane; or set shutter to 0");
+    moveTo(frame, shutter);
     std::vector<std::uint32_t> levels = levelsAt(scene_, frame);
     if (!levels_ || levels != levels_->values) {
         std::vector<std::uint32_t> words = levels;
@@ -299,6 +323,7 @@ FrameWorld WorldBuilder::at(float frame, glm::uvec2 size) {
     w.levels = levels_->buffer.address();
     w.levelsChanged = w.levels + levels_->values.size() * sizeof(std::uint32_t);
     w.camera = cameraRecord(scene_.cameraAt(frame), size);
+    w.closingCamera = cameraRecord(scene_.cameraAt(frame + shutter), size);
     struct Keep {
         std::shared_ptr<const Fixed> fixed;
         std::shared_ptr<const Moving> moving;

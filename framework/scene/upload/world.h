@@ -24,8 +24,10 @@ public:
     WorldBuilder(const gpu::Device& device, const Scene& scene, bool rayQuery);
     ~WorldBuilder();
     /// The World at a frame (fractions are fine), for an image of `size` pixels, with the levels of the scene's own policy. Transforms, the
-    /// top level, lights and meshes that deform are made anew only when something moved; a World handed out earlier stays as it was.
-    FrameWorld at(float frame, glm::uvec2 size);
+    /// top level, lights and meshes that deform are made anew only when something moved; a World handed out earlier stays as it was. The shutter is open for
+    /// so many frames: camera and instances then go straight from where they are to where they are at its end; meshes keep their shape, lights without extent
+    /// their place. Error where the driver traces rays, whose structures stand still.
+    FrameWorld at(float frame, glm::uvec2 size, float shutter = 0);
     /// Each mesh by itself, as Frame::objects says, in the pose of a World that at() made; nullptr: of frame 0.
     FrameWorld objects(const World* posed);
     SceneRecords records() const;
@@ -36,8 +38,8 @@ private:
     struct Moving;
     struct Levels;
     std::shared_ptr<const Shapes> uploadShapes() const;
-    std::shared_ptr<const Moving> makeMoving(const Pose& pose);
-    void moveTo(float frame);   ///< moving_ is of that frame
+    std::shared_ptr<const Moving> makeMoving(const Pose& opening, const Pose& closing);
+    void moveTo(float frame, float shutter = 0);  ///< moving_ is of that frame and exposure
     World placedWorld() const;  ///< all but levels and camera
 
     const gpu::Device& device_;
@@ -47,7 +49,7 @@ private:
     std::shared_ptr<const Fixed> fixed_;
     std::unique_ptr<BottomLevels> bottomLevels_;  ///< null without ray queries
     std::shared_ptr<const Moving> moving_;
-    Pose pose_;  ///< that moving_ was made for
+    Pose opening_, closing_;  ///< that moving_ was made for
     std::map<VkDeviceAddress, float> frames_;  ///< whose pose lies at World.positions, where meshes deform
     std::shared_ptr<const Levels> levels_;
 };

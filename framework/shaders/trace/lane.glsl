@@ -72,8 +72,10 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
         } else {
             instance = current & REF_INSTANCE_BITS;
             TraceInstance record = LaneInstances(w.traceInstances).at[instance];
-            origin = pointToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.origin);
-            direction = directionToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], ray.direction);
+            vec3 from = ray.origin, way = ray.direction;
+            intoOpening(w, instance, from, way);
+            origin = pointToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], from);
+            direction = directionToGrid(record.toGrid[0], record.toGrid[1], record.toGrid[2], way);
             slope = inverseOf(direction);
             offset = (record.boxes - origin) * slope;
             stack[size++] = REF_BACK;

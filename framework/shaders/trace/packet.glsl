@@ -142,7 +142,9 @@ Hit traceRay(World w, Ray ray, bool anyHit) {
         } else {
             p.instance = current & REF_INSTANCE_BITS;
             uint64_t record = loadSpread(w.traceInstances + uint64_t(p.instance) * 64ul, 8u);
-            r = enterInstance(record, outside.origin, outside.direction);
+            vec3 from = outside.origin, way = outside.direction;
+            intoOpening(w, p.instance, from, way);
+            r = enterInstance(record, from, way);
             outsideStack = stack;
             uint level = w.levels.at[p.instance];
 #if RAY_LEVELS

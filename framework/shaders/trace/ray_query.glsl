@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rays traced by the driver (VK_KHR_ray_query). World.tlas was built over the levels that World.levels says.
-// Drivers don't tell their steps, so traceSteps stays 0.
+// Drivers don't tell their steps, so traceSteps stays 0, and their structures don't move: motion blur is refused before anything is traced.
 #extension GL_EXT_ray_query : require
 #include "trace/reference.glsl"
 

@@ -3,6 +3,7 @@
 #include "world/world.h"
 #include "world/ray.h"
 #include "world/ray_levels.glsl"
+#include "world/triangle.glsl"
 
 const uint REF_LEAF = 0x80000000u;      // | (count - 1) << 28 | REF_MASKED when one of the triangles has an alpha mask | first triangle
 const uint REF_MASKED = 0x08000000u;
@@ -34,6 +35,20 @@ vec3 pointToGrid(vec4 x, vec4 y, vec4 z, vec3 point) {
     return vec3(dot(x.xyz, p), dot(y.xyz, p), dot(z.xyz, p));
 }
 vec3 directionToGrid(vec4 x, vec4 y, vec4 z, vec3 d) { return vec3(dot(x.xyz, d), dot(y.xyz, d), dot(z.xyz, d)); }
+
+/// Takes a ray to where an instance stood when the shutter opened, for which it was laid out: it stands there as the ray stands to it now.
+void intoOpening(World w, uint instance, inout vec3 origin, inout vec3 direction) {
+    if (MOTION_BLUR == 0 || (w.instances.at[instance].flags & INSTANCE_MOVES) == 0u) return;
+    Placement now = placementOf(w, instance);
+    w.time = 0.0;
+    Placement then = placementOf(w, instance);
+    // The inverse of a matrix of rows r has the columns r1 x r2, r2 x r0, r0 x r1, over its determinant.
+    vec3 x = cross(now.row1, now.row2), y = cross(now.row2, now.row0), z = cross(now.row0, now.row1);
+    float scale = 1.0 / dot(now.row0, x);
+    vec3 p = origin - now.translation;
+    origin = placePoint(then, scale * (p.x * x + p.y * y + p.z * z));
+    direction = placeVector(then, scale * (direction.x * x + direction.y * y + direction.z * z));
+}
 
 // The root that an instance shows: its level is read where it is entered, so a switch of levels rebuilds nothing. Without triangles, or beyond all levels
 // (which is how passes hide an instance): straight back.

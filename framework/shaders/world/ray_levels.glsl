@@ -3,7 +3,8 @@
 // levels of detail; "Implementing Stochastic Levels of Detail with Microsoft DirectX Raytracing", NVIDIA 2020). A ray carries a number, all rays of a path
 // the same, so that they see one scene: with another number a shadow ray would start inside of what it left.
 //
-// Graphs in which some pass makes instances dissolve are compiled with RAY_LEVELS (pass/pass.h, Fact); in others the number isn't even drawn.
+// Graphs in which some pass makes instances dissolve are compiled with RAY_LEVELS (pass/pass.h, Fact); in others, unless paths choose times as well
+// (world/exposure.glsl), the number isn't even drawn.
 #include "base/random.glsl"
 #include "world/scene_facts.glsl"
 #include "world/world.h"
@@ -15,11 +16,11 @@ const uint DISSOLVE_EACH = 1u;  // the instance has a number of its own for each
 const uint RAY_NUMBER = 0xffffff00u;
 
 /// That of a path, which has it from its seed.
-uint numberOfPath(uvec2 seed) { return RAY_LEVELS == 0 ? 0u : randomBits3(seed, 0u, RANDOM_LEVEL).x & RAY_NUMBER; }
+uint numberOfPath(uvec2 seed) { return !RAY_NUMBERS ? 0u : randomBits3(seed, 0u, RANDOM_LEVEL).x & RAY_NUMBER; }
 
 /// That of a pixel in the frame of `w`: of its camera ray, and of what starts from where that ends.
 uint numberOfPixel(World w, ivec2 pixel) {
-    return RAY_LEVELS == 0 ? 0u : randomBits3(uvec2(pixel), w.frameKey, RANDOM_LEVEL).x & RAY_NUMBER;
+    return !RAY_NUMBERS ? 0u : randomBits3(uvec2(pixel), w.frameKey, RANDOM_LEVEL).x & RAY_NUMBER;
 }
 
 /// Whether rays of a number see the coarser of the two levels of an instance.

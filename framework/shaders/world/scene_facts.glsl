@@ -9,6 +9,10 @@
 #ifndef RAY_LEVELS
 #define RAY_LEVELS 0      // instances may dissolve into their next level (world/ray_levels.glsl): graphs in which a pass makes them
 #endif
+#ifndef MOTION_BLUR
+#define MOTION_BLUR 0     // the shutter stays open for a while (world/exposure.glsl)
+#endif
+#define RAY_NUMBERS (RAY_LEVELS != 0 || MOTION_BLUR != 0)  // paths have numbers by which they choose
 #ifndef SCENE_MASKS
 #define SCENE_MASKS 1   // MATERIAL_MASK
 #endif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Triangles as the World stores them: corners, attributes between corners, and the way from object to world space.
+#include "world/scene_facts.glsl"
 #include "world/world.h"
 
 vec3 interpolate(vec3 a, vec3 b, vec3 c, vec2 barycentrics) {
@@ -34,7 +35,7 @@ vec2 uvOn(World w, uvec3 corners, vec2 barycentrics, uint set) {
     return uv[0] + barycentrics.x * (uv[1] - uv[0]) + barycentrics.y * (uv[2] - uv[0]);
 }
 
-/// Linear part and translation of an instance's transform, by rows.
+/// Linear part and translation of an instance's transform, by rows, at the time of `w`.
 struct Placement {
     vec3 row0, row1, row2;
     vec3 translation;
@@ -43,7 +44,13 @@ struct Placement {
 
 Placement placementOf(World w, uint instance) {
     vec4 x = w.instances.at[instance].toWorld[0], y = w.instances.at[instance].toWorld[1], z = w.instances.at[instance].toWorld[2];
-    float winding = (w.instances.at[instance].flags & INSTANCE_MIRRORED) != 0u ? -1.0 : 1.0;
+    uint flags = w.instances.at[instance].flags;
+    if (MOTION_BLUR != 0 && (flags & INSTANCE_MOVES) != 0u) {
+        x = mix(x, w.closing.at[3u * instance], w.time);
+        y = mix(y, w.closing.at[3u * instance + 1u], w.time);
+        z = mix(z, w.closing.at[3u * instance + 2u], w.time);
+    }
+    float winding = (flags & INSTANCE_MIRRORED) != 0u ? -1.0 : 1.0;
     return Placement(x.xyz, y.xyz, z.xyz, vec3(x.w, y.w, z.w), winding);
 }
 

@@ -25,7 +25,7 @@ struct PrimitiveRecord {
     uint material;
 };
 
-// Where an instance stands and what it shows. Rows of 3x4 matrices, point p maps to (dot(row0.xyz, p) + row0.w, ...).
+// Where an instance stands when the shutter opens, and what it shows. Rows of 3x4 matrices, point p maps to (dot(row0.xyz, p) + row0.w, ...).
 struct InstanceRecord {
     vec4 toWorld[3];
     vec4 rounding;    // of its linear part M and translation t, sizes taken by element: |M^-1| |t|, and what |M^-1| |M| mixes (scene/bvh/bvh.h, traceRounding)
@@ -36,6 +36,7 @@ struct InstanceRecord {
 };
 const uint INSTANCE_MIRRORED = 1u;  // the way from the file's vertices to the world turns triangles inside out
 const uint INSTANCE_HIDDEN = 2u;    // nothing is left of it
+const uint INSTANCE_MOVES = 4u;     // while the shutter is open: World.closing has where to
 
 // The same instance as traversal reads it: world space to grid steps of the mesh (scene/bvh/bvh.h, BvhGrid). With the origin that triangles are measured
 // from in world space, o = (row0.w, row1.w, row2.w), a point p maps to (dot(row0.xyz, p - o), ...): subtracted first, so that precision
@@ -209,10 +210,12 @@ struct World {
     uint topRoot;                                    // node reference
     vec3 gridScale;
     uint instanceCount;
-    uint frameKey;                                   // of run and frame: by it pixels draw the numbers that their rays choose levels by
+    uint frameKey;                                   // of run and frame: by it pixels draw the numbers that their rays choose levels and times by
+    float time;                                      // at which it is seen, share of the exposure (world/exposure.glsl)
 
     // Geometry and materials.
     LODESTIR_ARRAY_OF(InstanceArray) instances;
+    LODESTIR_ARRAY_OF(Vec4Array) closing;            // of each instance, its toWorld when the shutter closes; read where it moves
     LODESTIR_ARRAY_OF(PrimitiveArray) primitives;
     LODESTIR_ARRAY_OF(LevelArray) meshLevels;        // mesh m at level l: meshLevels[m * LEVELS + l]
     LODESTIR_ARRAY_OF(MeshArray) meshes;
@@ -237,6 +240,7 @@ struct World {
     uint64_t impostors;                              // Impostors (impostor/impostors.h) that camera hits may be texels of; 0: none
 
     CameraRecord camera;
+    CameraRecord closingCamera;                      // when the shutter closes
 };
 
 LODESTIR_SHARED_END

@@ -8,6 +8,7 @@
 #include "surface/surface.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
+#include "world/exposure.glsl"
 
 const uint RANDOM_OPENING = RANDOM_FREE;
 
@@ -29,6 +30,7 @@ void pathStart(inout Path p, World now, ivec2 pixel) {
     p.count = 0;
     p.isSurface = first.primitive != NONE;
     if (!p.isSurface) return;
+    now = atTime(now, numberOfPixel(now, pixel));
     Surface s = surfaceAt(now, hitOf(first), cameraRay(now, filmOf(pixel, first.film, openSize()), first.lens).direction);
     p.origin = spawnOrigin(s, s.normal);
     p.normal = s.normal;

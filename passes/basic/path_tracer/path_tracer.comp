@@ -12,6 +12,7 @@
 #include "trace/known_ray.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
+#include "world/exposure.glsl"
 
 struct Path {
     uvec2 seed;
@@ -45,6 +46,17 @@ World pathWorld(World now, uint item) { return now; }
 
 void pathStart(inout Path p, World now, ivec2 pixel) { p.radiance = vec3(0); }
 
+#define PATH_NUMBER
+uint pathNumber(Path p, World w, ivec2 pixel) {
+    if (p.scatterings > 0 && params.fineReach > 0) return p.beyond ? 0u : RAY_NUMBER;
+    if (params.numbers == numbers_ray) return numberOfPath(randomBits3(p.seed, 2 * p.scatterings + (p.toLight ? 1 : 0), RANDOM_LEVEL).xy);
+#if HAS_hits
+    return numberOfPixel(w, pixel);
+#else
+    return numberOfPath(p.seed);
+#endif
+}
+
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     uint sampleIndex = frameIndex() * uint(params.spp) + item;
     p.seed = pathSeed(uvec2(pixel), sampleIndex, runSeed());
@@ -62,7 +74,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     offset = first.film;
     lens = first.lens;
 #endif
-    p.ray = cameraRay(w, (vec2(pixel) + offset) / vec2(colorSize()), lens);
+    p.ray = cameraRay(atTime(w, pathNumber(p, w, pixel)), (vec2(pixel) + offset) / vec2(colorSize()), lens);
     p.onward = p.ray;
     PROBE_OPEN(paths);
     PROBE(seed, p.seed);
@@ -182,17 +194,6 @@ bool pathStep(inout Path p, World w, Hit hit) {
 }
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {}
-
-#define PATH_NUMBER
-uint pathNumber(Path p, World w, ivec2 pixel) {
-    if (p.scatterings > 0 && params.fineReach > 0) return p.beyond ? 0u : RAY_NUMBER;
-    if (params.numbers == numbers_ray) return numberOfPath(randomBits3(p.seed, 2 * p.scatterings + (p.toLight ? 1 : 0), RANDOM_LEVEL).xy);
-#if HAS_hits
-    return numberOfPixel(w, pixel);
-#else
-    return numberOfPath(p.seed);
-#endif
-}
 
 void pathEnd(Path p, ivec2 pixel) { storeColor(pixel, vec4(p.radiance / float(params.spp), 1)); }
 

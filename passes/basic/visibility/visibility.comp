@@ -8,6 +8,7 @@
 #include "surface/surfel_point.glsl"
 #include "trace/trace.glsl"
 #include "world/camera.glsl"
+#include "world/exposure.glsl"
 
 struct Path {
     vec2 place, lens;  // inside the pixel, on the lens
@@ -45,7 +46,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.place = filmPlace(seed);
     p.film = filmOf(pixel, p.place, frameSize());
     p.lens = lensPlace(seed);
-    p.ray = cameraRay(w, p.film, p.lens);
+    p.ray = cameraRay(atTime(w, numberOfPixel(w, pixel)), p.film, p.lens);
     return true;
 }
 
@@ -62,10 +63,10 @@ bool pathStep(inout Path p, World w, Hit hit) {
 
 // Where last frame's image showed what the pixel's ray hit, relative to where this one does, in pixels. Without a hit: the point at infinity. Both by
 // projection: what rounding moves the point by, which barycentrics of ground seen from close by make pixels of, is in both.
-vec2 motionOf(Path p, World w) {
+vec2 motionOf(Path p, World w, ivec2 pixel) {
 #if HAS_worldPrev
     if (!historyValid()) return vec2(0);
-    World before = worldPrev();
+    World before = atTime(worldPrev(), numberOfPixel(w, pixel));
     vec3 was, is = vec3(p.film, 1);
     if (p.hit.primitive == NONE) {
         was = cameraProjectSky(before, p.ray.direction, p.film, p.lens);
@@ -89,7 +90,7 @@ void pathItemEnd(inout Path p, World traced, ivec2 pixel, uint item) {
     found.film = p.place;
     found.lens = p.lens;
     storeHits(pixelIndex(pixel), found);
-    storeMotion(pixel, motionOf(p, w));
+    storeMotion(pixel, motionOf(p, w, pixel));
     if (p.hit.primitive == NONE) {
         storeDepth(pixel, 0);
         storeNormal(pixel, vec4(0));

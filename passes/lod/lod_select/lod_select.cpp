@@ -73,7 +73,7 @@ struct LodSelect final : Pass {
         made.levelsChanged = made.levels + count * sizeof(std::uint32_t);
         if (chosen == Mode::stochastic) {
             made.dissolves = made.levelsChanged + sizeof(std::uint32_t);
-            made.frameKey = frame.seed() * 0x9e3779b9u + frame.index() * 0x85ebca6bu;
+            made.frameKey = frameKey(frame);
         }
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep, std::as_bytes(std::span(given)));
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;

@@ -11,6 +11,7 @@
 #include "restir/ris.glsl"
 #include "restir/shift.glsl"
 #include "restir/suffix.glsl"
+#include "world/exposure.glsl"
 
 // How a pixel and its partner in last frame find each other.
 const uint SPLATTED = 0;     // by where the first hit is
@@ -54,7 +55,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     bool splats = partner == SPLATTED;
     PROBE_CHOICE(technique, partner, "splatting|reprojection");
     if (splats && rules().pixelCamera != 0) return shiftOfNothing();
-    World from, now = to;
+    World from, now = to;  // of the frames: at no time of a path, so that there and back it is the same
     if (way == BACK) from = now = world();
     else from = worldPrev();
     Reservoir path = r.own;
@@ -80,6 +81,8 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     ivec2 here = pixel, there = r.before;  // the pixels by which levels are chosen, if they are chosen by pixels: then nothing is splatted
     if (way == FORTH) here = r.before, there = pixel;
     RayNumbers numbers = RayNumbers(pathNumber(rules(), from, here, path.seed), pathNumber(rules(), to, there, path.seed));
+    from = atTime(from, numbers.from);
+    to = atTime(to, numbers.to);
     MappedPath mapped = mapPath(from, to, now, numbers, uv(), levelMapping(), wanted, centre, path, hit);
     // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not. All of it is where that isn't asked.
     if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;

@@ -24,6 +24,7 @@ LightPoint drawnLight(World w, LightDraw d, uint candidate) { return lightPoint(
 #include "rate/walk.glsl"
 #include "restir/path_tree.glsl"
 #include "trace/known_ray.glsl"
+#include "world/exposure.glsl"
 
 struct Path {
     PathTree tree;
@@ -76,7 +77,8 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     PROBE(seed, seed);
     PROBE(film, film);
     PROBE(lens, lens);
-    treeStart(p.tree, seed, film, lens, cameraRay(w, filmOf(pixel, film, frameSize()), lens));
+    World then = atTime(w, pathNumber(rules(), w, pixel, seed));
+    treeStart(p.tree, seed, film, lens, cameraRay(then, filmOf(pixel, film, frameSize()), lens));
     return true;
 }
 

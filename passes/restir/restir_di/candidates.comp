@@ -38,6 +38,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     p.kept = LightReservoir(NONE, 0, vec2(0), 0, 0, 0, 0);
     p.mirrored = vec3(0);
     p.decisions = resamplingSeed(uvec2(pixel), frameIndex(), runSeed(), passSalt());
+    w = atPixel(w, pixel);
     LitSurface l = litSurface(w, pixel, frameSize(), hits(pixelIndex(pixel)));
     if (l.sky) return false;
     uvec2 seed = pathSeed(uvec2(pixel), frameIndex(), runSeed());
@@ -131,7 +132,7 @@ void mergeHistory(inout Path p, World w, ivec2 pixel) {
     ivec2 before = pixelBefore(pixel, motion(pixel));
     if (!historyValid() || params.cap == 0) return;
     if (!inside(before)) return;
-    World last = worldPrev();
+    World last = atPixel(worldPrev(), before);
     PrimaryHit here = hits(pixelIndex(pixel)), there = hitsPrev(pixelIndex(before));
     if (!similarPixels(pixelView(w, here), pixelView(last, there))) return;
     LightReservoir past = history(pixelIndex(before)), own = p.kept;

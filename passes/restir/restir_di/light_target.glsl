@@ -8,6 +8,10 @@
 #include "restir/ris.glsl"
 #include "restir/neighbours.glsl"
 #include "world/camera.glsl"
+#include "world/exposure.glsl"
+
+/// A frame's World as a pixel sees it.
+World atPixel(World w, ivec2 pixel) { return atTime(w, numberOfPixel(w, pixel)); }
 
 /// The surface that a pixel sees, ready to be lit.
 struct LitSurface {

@@ -39,7 +39,8 @@ LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {
         ivec2 q = neighbourOf(w, pixel, i);
         if (q == pixel) continue;
         LightReservoir other = merged(pixelIndex(q));
-        float here = targetAt(w, l, other), there = targetAt(w, litSurface(w, q, frameSize(), hits(pixelIndex(q))), own);
+        World seen = atPixel(world(), q);
+        float here = targetAt(w, l, other), there = targetAt(seen, litSurface(seen, q, frameSize(), hits(pixelIndex(q))), own);
         PROBE_OPEN(candidates);
         PROBE(from, q);
         float weight = resamplingWeight(neighbourMis(pairs, other.M, here, other.pHat), here, other.W, 1);
@@ -62,6 +63,7 @@ LightReservoir reuseNeighbours(World w, ivec2 pixel, LitSurface l) {
 
 bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     PrimaryHit h = hits(pixelIndex(pixel));
+    w = atPixel(w, pixel);
     LitSurface l = litSurface(w, pixel, frameSize(), h);
     p.kept = merged(pixelIndex(pixel));
     p.unshadowed = vec3(0);

@@ -6,6 +6,7 @@
 #include "light/environment.glsl"
 #include "restir/reservoir.glsl"
 #include "world/camera.glsl"
+#include "world/exposure.glsl"
 
 // Light seen directly through the pixel.
 vec3 emissionAt(World w, ivec2 p, PrimaryHit h) {
@@ -23,7 +24,7 @@ vec3 radianceOf(ivec2 p, Reservoir r) {
     radiance += addRgba(p).rgb;
 #endif
 #if HAS_hits
-    if (params.emission) radiance += emissionAt(world(), p, hits(pixelIndex(p)));
+    if (params.emission) radiance += emissionAt(atTime(world(), numberOfPixel(world(), p)), p, hits(pixelIndex(p)));
 #endif
     return radiance;
 }
