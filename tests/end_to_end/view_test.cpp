@@ -271,6 +271,70 @@ TEST_F(View, WidgetsChangeTheImageAndWhatIsSaved) {
 }
 
 // If this fails, whoever edits a material while an impostor is shown waits for a bake, or sees another picture than a run of the edited graph makes.
+// A picture is kept, a darker variant comes: they stand side by side, the line between them is dragged, the difference is what the variant lacks.
+TEST_F(View, ComparesWithWhatWasKept) {
+    const Path shot = folder / "window.png";
+    Viewer viewer(*display, folder, writeGraph(), {"--screenshot", shot.string()});
+    viewer.await("frames", rendered);
+    viewer.key("a");
+    viewer.await("a kept picture", [](const OrderedJson& r) { return r["comparison"]["keeps"] == true; });
+    viewer.click("variant");
+    viewer.click("variant: dim");
+    viewer.await("the other variant", [](const OrderedJson& r) { return r["builds"] == 2 && r["framesStill"].get<int>() > 3; });
+    /// Mean of the picture left and right of its middle, at the same distance, where both show much the same.
+    const auto halves = [&] {
+        std::filesystem::remove(shot);
+        viewer.key("F12");
+        viewer.await("a picture of the window", [&](const OrderedJson&) {
+            std::error_code none;
+            return std::filesystem::file_size(shot, none) > 0 && !none;
+        });
+        std::this_thread::sleep_for(200ms);
+        const ImageData window = readPng(shot);
+        const OrderedJson area = viewer.report()["area"];
+        const int x = area[0].get<int>() + area[2].get<int>() / 2, y = area[1].get<int>() + area[3].get<int>() / 2;
+        std::pair<double, double> mean;
+        for (int dy = -120; dy < 120; ++dy)
+            for (int dx = 20; dx < 120; ++dx) {
+                mean.first += window.at(x - dx, y + dy, 1) / 24000;
+                mean.second += window.at(x + dx, y + dy, 1) / 24000;
+            }
+        return mean;
+    };
+    const auto side = [](int wanted) { return [wanted](const OrderedJson& r) { return r["comparison"]["side"] == wanted; }; };
+    const auto split = halves();
+    EXPECT_GT(split.first, 2 * split.second) << "the kept picture at the left, three stops darker at the right";
+    // The line, dragged to three quarters.
+    const auto [x, y] = viewer.picture();
+    const auto [to, same] = viewer.picture(0.25);
+    viewer.point(x, y);
+    std::this_thread::sleep_for(300ms);
+    display->xdotool({"mousedown", "1"});
+    std::this_thread::sleep_for(300ms);  // a hand rests before it drags
+    viewer.point(to, same);
+    std::this_thread::sleep_for(300ms);
+    display->xdotool({"mouseup", "1"});
+    const OrderedJson dragged = viewer.await("the line elsewhere", [](const OrderedJson& r) { return r["comparison"]["split"].get<double>() > 0.7; });
+    EXPECT_NEAR(dragged["comparison"]["split"].get<double>(), 0.75, 0.02);
+    EXPECT_EQ(dragged["camera"]["own"], false) << "the drag has moved the camera";
+
+    viewer.key("b");
+    viewer.await("A alone", side(1));
+    const auto kept = halves();
+    viewer.key("b");
+    viewer.await("B alone", side(2));
+    const auto now = halves();
+    viewer.click("side 3");
+    viewer.await("the difference", side(3));
+    const auto difference = halves();
+    EXPECT_GT(kept.second, 2 * now.second);
+    EXPECT_LT(difference.first, kept.first);
+    EXPECT_GT(difference.first, now.first) << "what three stops take is more than they leave";
+    viewer.click("keep");
+    viewer.await("nothing kept", [](const OrderedJson& r) { return r["comparison"]["keeps"] == false; });
+    EXPECT_TRUE(viewer.running());
+}
+
 TEST_F(View, AMaterialIsEditedLive) {
     const Path graph = sourceFolder / "graphs/impostor.json";
     const Arguments small{"--scene", (sourceFolder / "scenes/impostor_sphere.json").string(), "--size", "96x96", "--set", "bake.resolution=64"};

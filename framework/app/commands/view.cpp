@@ -30,12 +30,13 @@ int showWindow(const ViewOptions& options) {
         std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.renderer.device, .windowExtensions = window.vulkanExtensions()});
     Canvas canvas(*device, window);
     PicturePainter painter(*device);
+    Comparison comparison(*device);
     Viewport viewport;
     SelfReport report(options.selfReport);
     std::string failure;
     {
         RenderThread renderer(sessionOptions, device, frames, [] { Window::wake(); });
-        Panels panels(renderer, window, viewport, options.out, report.wanted());
+        Panels panels(renderer, window, viewport, comparison, options.out, report.wanted());
         using Clock = Window::Clock;
         // On a CPU driver drawing the window takes time from rendering: what nobody waits for is drawn less often.
         const auto pause = std::chrono::milliseconds(device->facts().type == "cpu" ? 80 : 12);
@@ -67,12 +68,14 @@ int showWindow(const ViewOptions& options) {
             const bool wished = panels.takeScreenshotWish() || (last && options.screenshotAtEnd);
             canvas.end(
                 [&](gpu::Commands& commands) {
-                    if (shows)
-                        painter.prepare(commands, status->picture, panels.layout(), panels.look(), area, viewport.toImage(status->picture),
-                                        viewport.pixelUnderPointer(), canvas.blueFirst());
+                    if (!shows) return;
+                    const glm::mat3 toImage = viewport.toImage(status->picture);
+                    painter.prepare(commands, status->picture, comparison.subtracted(status->picture, panels.layout()), panels.layout(), panels.look(), area,
+                                    toImage, viewport.pixelUnderPointer(), canvas.blueFirst());
+                    comparison.prepare(commands, area, toImage, canvas.blueFirst());
                 },
                 [&](gpu::Commands& commands, VkImage image) {
-                    if (shows) painter.paint(commands, image);
+                    if (shows) comparison.paint(commands, image, painter);
                 },
                 wished ? options.screenshot : Path());
             drawn = Clock::now();

@@ -15,8 +15,8 @@
 
 namespace lodestir {
 
-Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Path out, bool wantsStatistics)
-    : renderer_(renderer), window_(window), viewport_(viewport), out_(std::move(out)), wantsStatistics_(wantsStatistics) {}
+Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, bool wantsStatistics)
+    : renderer_(renderer), window_(window), viewport_(viewport), comparison_(comparison), out_(std::move(out)), wantsStatistics_(wantsStatistics) {}
 
 Rectangle Panels::pictureArea(glm::uvec2 window) const {
     return {.corner = {int(panelWidth), 0}, .size = glm::max(glm::ivec2(window) - glm::ivec2(int(panelWidth), int(stripHeight)), glm::ivec2(0))};
@@ -89,6 +89,7 @@ void Panels::draw(const ViewStatus& status) {
     drawGraph(status);
     if (graph_) {
         drawShown();
+        drawComparison(status);
         drawCamera(status);
         drawPasses();
         drawOutput(status);
@@ -133,6 +134,8 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_C)) moveCamera({});
     if (pressed(GLFW_KEY_F) && graph_)
         moveCamera(framed(viewport_.camera().value_or(status.camera.key), graph_->bounds, float(graph_->size.x) / float(graph_->size.y)));
+    if (pressed(GLFW_KEY_A)) keepPicture(status);
+    if (pressed(GLFW_KEY_B)) comparison_.turn();
     if (pressed(GLFW_KEY_0)) viewport_.fit();
     if (pressed(GLFW_KEY_1)) viewport_.zoomTo(1);
     if (pressed(GLFW_KEY_2)) viewport_.zoomTo(2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The panels of the viewer: what runs, what is shown, camera, parameters of all passes, times and rays. Made from the declarations.
 #pragma once
+#include <framework/app/view/comparison.h>
 #include <framework/app/view/render_thread.h>
 #include <framework/app/view/viewport.h>
 #include <framework/app/view/window.h>
@@ -12,15 +13,16 @@ namespace lodestir {
 class Panels {
 public:
     /// `out`: folder for what is saved. `wantsStatistics`: numbers of every picture, for whoever watches the viewer.
-    Panels(RenderThread& renderer, Window& window, Viewport& viewport, Path out, bool wantsStatistics);
+    Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, bool wantsStatistics);
 
     /// Draws all panels of one UI frame and sends what the user wants to the renderer.
     void draw(const ViewStatus& status);
     /// Where the picture goes: what the panels leave of a window of this size.
     Rectangle pictureArea(glm::uvec2 window) const;
-    /// Text over the picture: the pixel under the pointer.
+    /// Over the picture: what is compared with what, the pixel under the pointer.
     void drawProbe(const ViewStatus& status, const std::optional<PicturePainter::Probe>& probe, const Rectangle& area);
 
+    const Comparison& comparison() const { return comparison_; }
     const Look& look() const { return look_; }  ///< for the picture of this frame
     TexelLayout layout() const;
     bool takeScreenshotWish() { return std::exchange(screenshot_, false); }
@@ -43,6 +45,7 @@ private:
     void drawGraph(const ViewStatus& status);
     void drawShown();
     void drawLook(Shown& shown, const PortField& field);
+    void drawComparison(const ViewStatus& status);
     void drawCamera(const ViewStatus& status);
     void drawPasses();
     void drawParameter(const PassInfo& pass, std::size_t index);
@@ -55,12 +58,15 @@ private:
     bool button(const char* name, const char* label, const char* tip, float width = 0);
     void mark(const std::string& name);
     void sendShow();
+    void keepPicture(const ViewStatus& status);
+    std::string whatIsShown(const ViewStatus& status) const;
     void moveCamera(const std::optional<CameraKey>& camera);
     void send(RenderThread::Task task) { renderer_.post(std::move(task)); }
 
     RenderThread& renderer_;
     Window& window_;
     Viewport& viewport_;
+    Comparison& comparison_;
     Path out_;
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

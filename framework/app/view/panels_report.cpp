@@ -131,6 +131,7 @@ void Panels::drawProblems(const ViewStatus& status) {
 }
 
 void Panels::drawProbe(const ViewStatus& status, const std::optional<PicturePainter::Probe>& probe, const Rectangle& area) {
+    if (graph_) comparison_.draw(area, whatIsShown(status));
     std::string text = status.picture.texels ? port_ : "";
     if (!status.picture.texels && graph_) text = port_ + ": nothing to look at";
     if (probe && viewport_.pixelUnderPointer().x >= 0) text += "   " + probeText(probe->pixel, probe->bits, probe->layout);
@@ -153,6 +154,8 @@ void Panels::drawHelp() {
                                                {"F   C", "frame the scene; the scene's own camera"},
                                                {"Space   N", "pause; one frame"},
                                                {"R", "restart history and accumulation"},
+                                               {"A", "keep what is shown, to compare; let it go"},
+                                               {"B", "A | B with a line to drag, A, B, A - B"},
                                                {"S", "save what is shown (EXR, PNG)"},
                                                {"F12", "picture of the whole window"},
                                                {"Ctrl + click on a slider", "type the number"},

@@ -138,4 +138,37 @@ void Panels::drawLook(Shown& shown, const PortField& field) {
     }
 }
 
+/// Port, variant, frame: what tells one picture from another.
+std::string Panels::whatIsShown(const ViewStatus& status) const {
+    return graph_->file.stem().string() + (graph_->variant.empty() ? "" : " (" + graph_->variant + ")") + "  " + status.picture.port +
+           fmt::format("  frame {}", status.picture.frame);
+}
+
+void Panels::keepPicture(const ViewStatus& status) {
+    if (comparison_.keeps()) comparison_.release();
+    else if (graph_) comparison_.keep(status.picture, layout(), look_, whatIsShown(status));
+}
+
+void Panels::drawComparison(const ViewStatus& status) {
+    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 5 * space) / 6;
+    if (button("keep", comparison_.keeps() ? "Let A go" : "Keep as A", "what is shown now stays as A, to be compared with what comes: another port, variant, graph or value: A",
+               2 * width + space))
+        keepPicture(status);
+    static constexpr std::pair<Comparison::Side, const char*> sides[] = {{Comparison::Side::split, "A | B"},
+                                                                         {Comparison::Side::kept, "A"},
+                                                                         {Comparison::Side::now, "B"},
+                                                                         {Comparison::Side::difference, "A - B"}};
+    static constexpr const char* tips[] = {"side by side: drag the line", "the kept one alone", "the present one alone",
+                                           "how far each number is from the other's, where both are of one kind and size"};
+    ImGui::BeginDisabled(!comparison_.keeps());
+    for (const auto& [side, label] : sides) {
+        ImGui::SameLine();
+        const bool chosen = comparison_.side() == side;
+        if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+        if (button(fmt::format("side {}", int(side)).c_str(), label, fmt::format("{}; the next: B", tips[int(side)]).c_str(), width)) comparison_.turnTo(side);
+        if (chosen) ImGui::PopStyleColor();
+    }
+    ImGui::EndDisabled();
+}
+
 }  // namespace lodestir

@@ -45,14 +45,15 @@ PicturePainter::PicturePainter(const gpu::Device& device)
     placement_ = make("place_picture.comp", sizeof(PlacePicture));
 }
 
-void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, const TexelLayout& layout, const Look& look, const Rectangle& place,
-                             const glm::mat3& toImage, glm::ivec2 probe, bool blueFirst) {
+void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, const Picture* minus, const TexelLayout& layout, const Look& look,
+                             const Rectangle& place, const glm::mat3& toImage, glm::ivec2 probe, bool blueFirst) {
     const std::size_t texels = std::size_t(picture.extent.x) * picture.extent.y * 4, pixels = std::size_t(place.size.x) * std::size_t(place.size.y) * 4;
     if (colors_.size() < texels) colors_ = gpu::Buffer(device_, texels, gpu::Memory::device, "picture: colours");
     if (target_.size() < pixels) target_ = gpu::Buffer(device_, pixels, gpu::Memory::device, "picture: viewport");
 
     ColorTexels color{};
     color.texels = picture.texels->address();
+    color.minus = minus ? minus->texels->address() : 0;
     color.colors = colors_.address();
     color.ramp = ramp_.address();
     color.probe = probe_.address();
@@ -74,6 +75,7 @@ void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, co
     color.probePixel = probe;
     colored_ = color;
     picture_ = picture;
+    minus_ = minus ? *minus : Picture();
     layout_ = layout;
     if (reprobe) {
         color.probeOnly = recolor ? 0 : 1;
@@ -102,12 +104,16 @@ void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, co
     commands.dispatch(placement_, std::as_bytes(std::span(&placed, 1)), (placed.viewport.x + 7) / 8, (placed.viewport.y + 7) / 8);
 }
 
-void PicturePainter::paint(gpu::Commands& commands, VkImage image) const {
-    if (!picture_.texels) return;
+void PicturePainter::paint(gpu::Commands& commands, VkImage image, float from, float to) const {
+    const auto column = [&](float share) { return int(share * float(place_.size.x) + 0.5f); };
+    const int first = column(from), width = column(to) - first;
+    if (!picture_.texels || width <= 0) return;
     VkBufferImageCopy region{};
+    region.bufferOffset = 4 * VkDeviceSize(first);
+    region.bufferRowLength = std::uint32_t(place_.size.x);
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageOffset = {place_.corner.x, place_.corner.y, 0};
-    region.imageExtent = {std::uint32_t(place_.size.x), std::uint32_t(place_.size.y), 1};
+    region.imageOffset = {place_.corner.x + first, place_.corner.y, 0};
+    region.imageExtent = {std::uint32_t(width), std::uint32_t(place_.size.y), 1};
     vkCmdCopyBufferToImage(commands.handle(), target_.handle(), image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
 }
 

@@ -27,11 +27,12 @@ class PicturePainter {
 public:
     explicit PicturePainter(const gpu::Device& device);
 
-    /// Records the drawing of a picture. `toImage`: from pixels of the rectangle to pixels of the image. `probe`: the pixel whose value is wanted.
-    void prepare(gpu::Commands& commands, const Picture& picture, const TexelLayout& layout, const Look& look, const Rectangle& place, const glm::mat3& toImage,
+    /// Records the drawing of a picture, or of how far its numbers are from another's of the same extent and layout (`minus`, may be null). `toImage`: from
+    /// pixels of the rectangle to pixels of the image. `probe`: the pixel whose value is wanted.
+    void prepare(gpu::Commands& commands, const Picture& picture, const Picture* minus, const TexelLayout& layout, const Look& look, const Rectangle& place, const glm::mat3& toImage,
                  glm::ivec2 probe, bool blueFirst);
-    /// Copies what was prepared last; does nothing before.
-    void paint(gpu::Commands& commands, VkImage image) const;
+    /// Copies what was prepared last, from one share of the rectangle's width to another; does nothing before.
+    void paint(gpu::Commands& commands, VkImage image, float from = 0, float to = 1) const;
 
     struct Probe {
         glm::ivec2 pixel;
@@ -46,7 +47,7 @@ private:
     gpu::Pipeline color_, placement_;
     gpu::Buffer ramp_, colors_, target_, probe_;
     Rectangle place_;
-    Picture picture_;  ///< keeps its memory while it is drawn
+    Picture picture_, minus_;  ///< keep their memory while they are drawn
     ColorTexels colored_{};
     PlacePicture placed_{};
     TexelLayout layout_;

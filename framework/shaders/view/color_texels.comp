@@ -14,8 +14,8 @@ layout(push_constant, scalar) uniform PushConstants { ColorTexels push; };
 
 const vec3 invalid = vec3(0.0, 0.88, 0.38);  // a green that no look gives: not a number, or infinite
 
-uint bitsAt(uvec2 p, uint channel) {
-    const uint64_t texel = push.texels + uint64_t(p.y * push.size.x + p.x) * push.stride + push.offset;
+uint bitsAt(uint64_t texels, uvec2 p, uint channel) {
+    const uint64_t texel = texels + uint64_t(p.y * push.size.x + p.x) * push.stride + push.offset;
     if (push.number == NUMBER_FLOAT16 || push.number == NUMBER_UINT16) return uint(Halves(texel).at[channel]);
     if (push.number == NUMBER_UNORM8 || push.number == NUMBER_UINT8) return uint(Bytes(texel).at[channel]);
     return Words(texel).at[channel];
@@ -34,7 +34,10 @@ float valueOf(uint bits) {
 /// Components that a texel hasn't are 0.
 vec4 texel(uvec2 p) {
     vec4 v = vec4(0);
-    for (uint c = 0u; c < push.channels; ++c) v[c] = valueOf(bitsAt(p, c));
+    for (uint c = 0u; c < push.channels; ++c) {
+        v[c] = valueOf(bitsAt(push.texels, p, c));
+        if (push.minus != 0ul) v[c] = abs(v[c] - valueOf(bitsAt(push.minus, p, c)));
+    }
     return v;
 }
 
@@ -47,8 +50,9 @@ vec3 encode(vec3 c) { return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 
 
 vec3 colorOf(uvec2 p) {
     if (push.look == LOOK_IDS) {
-        uint h = bitsAt(p, min(push.pick, push.channels - 1u));
-        if (h == ~0u) return vec3(0.1);  // none
+        const uint channel = min(push.pick, push.channels - 1u);
+        uint h = bitsAt(push.texels, p, channel);
+        if (h == ~0u || (push.minus != 0ul && h == bitsAt(push.minus, p, channel))) return vec3(0.1);  // none, or no other
         h = (h ^ (h >> 16u)) * 0x7feb352du;
         h = (h ^ (h >> 15u)) * 0x846ca68bu;
         return 0.25 + 0.7 * unpackUnorm4x8(h ^ (h >> 16u)).rgb;
@@ -71,7 +75,7 @@ void main() {
     const uvec2 p = gl_GlobalInvocationID.xy;
     if (any(greaterThanEqual(p, push.size))) return;
     if (p == uvec2(0) && all(greaterThanEqual(push.probePixel, ivec2(0))) && all(lessThan(push.probePixel, ivec2(push.size))))
-        for (uint c = 0u; c < push.channels; ++c) Words(push.probe).at[c] = bitsAt(uvec2(push.probePixel), c);
+        for (uint c = 0u; c < push.channels; ++c) Words(push.probe).at[c] = bitsAt(push.texels, uvec2(push.probePixel), c);
     if (push.probeOnly != 0u) return;
     const vec3 c = clamp(colorOf(p), 0, 1);
     Words(push.colors).at[p.y * push.size.x + p.x] = packUnorm4x8(vec4(push.swapped != 0u ? c.bgr : c, 1));

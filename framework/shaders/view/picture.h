@@ -29,6 +29,7 @@ const uint PICK_LENGTH = 5u;  // of the vector of all components
 // Push constants of view/color_texels.comp.
 struct ColorTexels {
     uint64_t texels;
+    uint64_t minus;      // texels of another picture, whose distance from them is shown; 0: none
     uint64_t colors;     // made: a word a texel, encoded for the screen
     uint64_t ramp;       // 256 words: false colours, red in the lowest byte
     uint64_t probe;      // uvec4: bits of the texel at probePixel
