@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reuse against path tracing on scenes that each stress one mechanism: short runs with fixed seeds, to one percent of the energy. The studies
-// of the same names go to 0.3 %. By default each reuse is judged where nothing moves, where all does (with moving_furnace_test), and through a lens;
-// the suites Long add the other pairs.
+// of the same names go to 0.3 %. By default each reuse is judged where nothing moves and through a lens, and where all does by
+// moving_furnace_test and motion_blur_test; the suites Long add the other pairs.
 #include "frames.h"
 #include "model.h"
 #include "program.h"
@@ -78,10 +78,14 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
                                          Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
-                                         Case{"ensemble_moving", 8, 128, "restir_pt.json", {}, {64, 36}}, Case{"ensemble_panes", 4, 96},
+                                         Case{"ensemble_panes", 4, 96},
                                          Case{"ensemble_lens", 8, 96},
                                          Case{"ensemble_orthographic", 2, 64}, Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
                          [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
+
+std::string sceneName(const testing::TestParamInfo<Case>& test) { return test.param.scene; }
+
+INSTANTIATE_TEST_SUITE_P(LongMoving, Unbiased, testing::Values(Case{"ensemble_moving", 8, 128, "restir_pt.json", {}, {64, 36}}), sceneName);
 
 std::string pairedName(const testing::TestParamInfo<Case>& test) { return test.param.scene + (test.param.variant ? "_alone" : "_with_all"); }
 
@@ -95,8 +99,6 @@ INSTANTIATE_TEST_SUITE_P(LongPaired, Unbiased,
                          testing::Values(Case{"ensemble_glass", 4, 512, "restir_pt.json", "paired"},
                                          Case{"ensemble_glossy", 4, 256, "restir_pt_enhanced.json"}),
                          pairedName);
-
-std::string sceneName(const testing::TestParamInfo<Case>& test) { return test.param.scene; }
 
 // One place inside the pixel for a frame: the mean over runs, whose frames have other places, is the same box filter's. With a lens it is judged
 // above, splatted below.

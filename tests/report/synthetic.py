@@ -220,7 +220,8 @@ def kept_study(root, name):
         knobs = {**given.get("vary", {}), **{knob: limits[:1] for knob, limits in given.get("solve", {}).items()}}
         configurations += [(technique, dict(zip(knobs, values))) for values in itertools.product(*knobs.values())]
     masks = ["", *(f".{mask}" for mask in study.get("masks", [study["mask"]] if "mask" in study else []))]
-    metrics = [metric(name + mask) for name in study.get("metrics", []) for mask in masks]
+    levels = ["", ".finest"] if study["reference"].get("finest") else [""]
+    metrics = [metric(name + mask + level, finest=level != "") for name in study.get("metrics", []) for mask in masks for level in levels]
     frames = study["frames"]["measure"]
     graphs = [json.loads((path.parent / technique["graph"]).read_text()) for technique in study["techniques"].values()]
     passes = {name: {"ms": 1.5, "rays": {"nee": 100}} for graph in graphs for name in pass_names(graph)}
@@ -235,6 +236,9 @@ def kept_study(root, name):
             cell = {"seeds": SEEDS, "ms": {"median": 1.5, "fastest": 1.0, "slowest": 2.0, "values": some()}, "rays": {"mean": 1.5, "halfWidth": 0.5, "values": some()}, "passes": passes,
                     "counts": {name: {"mean": 1.5, "halfWidth": 0.5} for name in counts},
                     "metrics": {name: {**estimate(drawn), "values": drawn} for name, drawn in values.items()}}
+            if study.get("decompose"):
+                part = {"mean": 1.5, "halfWidth": 0.5}
+                summary["decompositions"] += [{**place, "metric": name, "squaredBias": part, "variance": part} for name in values]
             span = {"ratio": True, "paired": True, "middle": 2.0, "low": 1.5, "high": 2.5}
             if "ablate" in study["techniques"][technique]:
                 summary["comparisons"] += [{**place, "baseline": place, "without": [part], "ms": span, "rays": span, "metrics": {name: span for name in values}}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture that was kept (A) beside the one that is made now (B): another port, variant, graph or parameter, seen side by side, in turn, or by their difference.
+// A picture that was kept (A) beside the one that is made now (B): another port, variant, graph or parameter, seen side by side, in turn, or by their
+// difference.
 #pragma once
 #include <framework/app/view/picture_painter.h>
 

@@ -151,8 +151,8 @@ void Panels::keepPicture(const ViewStatus& status) {
 
 void Panels::drawComparison(const ViewStatus& status) {
     const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 5 * space) / 6;
-    if (button("keep", comparison_.keeps() ? "Let A go" : "Keep as A", "what is shown now stays as A, to be compared with what comes: another port, variant, graph or value: A",
-               2 * width + space))
+    if (button("keep", comparison_.keeps() ? "Let A go" : "Keep as A",
+               "what is shown now stays as A, to be compared with what comes: another port, variant, graph or value: A", 2 * width + space))
         keepPicture(status);
     static constexpr std::pair<Comparison::Side, const char*> sides[] = {{Comparison::Side::split, "A | B"},
                                                                          {Comparison::Side::kept, "A"},

@@ -29,8 +29,8 @@ public:
 
     /// Records the drawing of a picture, or of how far its numbers are from another's of the same extent and layout (`minus`, may be null). `toImage`: from
     /// pixels of the rectangle to pixels of the image. `probe`: the pixel whose value is wanted.
-    void prepare(gpu::Commands& commands, const Picture& picture, const Picture* minus, const TexelLayout& layout, const Look& look, const Rectangle& place, const glm::mat3& toImage,
-                 glm::ivec2 probe, bool blueFirst);
+    void prepare(gpu::Commands& commands, const Picture& picture, const Picture* minus, const TexelLayout& layout, const Look& look, const Rectangle& place,
+                 const glm::mat3& toImage, glm::ivec2 probe, bool blueFirst);
     /// Copies what was prepared last, from one share of the rectangle's width to another; does nothing before.
     void paint(gpu::Commands& commands, VkImage image, float from = 0, float to = 1) const;
 

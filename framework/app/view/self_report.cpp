@@ -38,7 +38,8 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"pixel", {viewport.pixelUnderPointer().x, viewport.pixelUnderPointer().y}},
                         {"zoom", viewport.zoom()},
                         {"area", {area.corner.x, area.corner.y, area.size.x, area.size.y}},
-                        {"comparison", {{"keeps", panels.comparison().keeps()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
+                        {"comparison",
+                         {{"keeps", panels.comparison().keeps()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
                         {"widgets", panels.widgets()}};
     if (status.statistics) json["mean"] = status.statistics->mean;
     for (const PassTime& pass : status.passes) json["runs"][pass.name] = pass.runs;

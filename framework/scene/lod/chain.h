@@ -29,8 +29,9 @@ struct LodChain {
     float radius = 0;  ///< of a sphere around the finest level
 };
 
-/// Simplifies the finest level further and further, fits the colours and normals of each to those of the level before, and measures it against the finest. A level that hardly has fewer triangles than the
-/// one before, is farther from the finest than a quarter of the radius, or has lost a twentieth of the UVs, is not made, nor are coarser ones.
+/// Simplifies the finest level further and further, fits the colours and normals of each level to those of the level before, and measures each against the
+/// finest. A level that hardly has fewer triangles than the one before, is farther from the finest than a quarter of the radius, or has lost a twentieth of
+/// the UVs, is not made, nor are coarser ones.
 LODESTIR_API LodChain buildLodChain(const MeshLevel& finest, const LodChainOptions& options);
 
 /// MSFT_screencoverage of each level of a chain: the share of a 16:9 image that the sphere around the mesh covers where the next level's
