@@ -14,9 +14,9 @@
 // and, if it defines PATH_NUMBER as well,
 //   uint pathNumber(Path path, World w, ivec2 pixel);         by which an item's rays choose levels (world/ray_levels.glsl) and its time
 //                                                             (world/exposure.glsl); without: the pixel's
-// where `now` is the pass's input `world`, read once, and `w` is seen at the item's time but for pathBegin, which chooses it. pathRay may be called several times for one ray, and so has to give the same one. The whole
-// subgroup walks in step: its paths alternate between nearest-hit and any-hit rays, and one that wants the other kind waits (measured to beat both
-// lanes that go their own way and lanes that start their next path early).
+// where `now` is the pass's input `world`, read once, and `w` is seen at the item's time but for pathBegin, which chooses it. pathRay may be called several
+// times for one ray, and so has to give the same one. The whole subgroup walks in step: its paths alternate between nearest-hit and any-hit rays, and one that
+// wants the other kind waits (measured to beat both lanes that go their own way and lanes that start their next path early).
 //
 // It may define DRIVER_PIXEL(place), the pixel that stands at a place of the dispatch, where pixels are walked in another order.
 //
