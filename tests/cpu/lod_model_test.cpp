@@ -217,6 +217,37 @@ TEST_F(LodCommand, UnlitAndColouredMeshesGetLevels) {
     }
 }
 
+// Of a mesh whose last part is unlit: normals are fitted where they are seen, and those that aren't stay what they were.
+TEST_F(LodCommand, NormalsOfUnlitPartsStay) {
+    MeshLevel ball = octahedralSphere(4);
+    model.json["materials"] = {json::object(), {{"extensions", {{"KHR_materials_unlit", json::object()}}}}};
+    json parts = json::array();
+    for (int material = 0; material < 2; ++material) {
+        std::vector<float> normals;
+        for (glm::vec3& p : ball.positions) {
+            normals.insert(normals.end(), {p.x, p.y, p.z});
+            p.x += 3 * float(material);  // beside the other
+        }
+        json part = primitive(ball, false);
+        part["attributes"]["NORMAL"] = model.accessor(normals, 5126, "VEC3", 3);
+        part["material"] = material;
+        parts.push_back(part);
+    }
+    model.addMesh(parts[0]);
+    model.json["meshes"][0]["primitives"] = parts;
+    write();
+    lod({in(), "--out", out(), "--json"});
+    const GltfFile file = readGltfFile(out());
+    ASSERT_GT(file.model.meshes.size(), 1u);
+    for (std::size_t level = 1; level < file.model.meshes.size(); ++level) {
+        ASSERT_EQ(file.model.meshes[level].primitives.size(), 2u);
+        for (std::size_t p = 0; p < 2; ++p) {
+            const int own = file.model.meshes[0].primitives[p].attributes.at("NORMAL"), made = file.model.meshes[level].primitives[p].attributes.at("NORMAL");
+            EXPECT_EQ(own == made, p == 1) << "level " << level << ", part " << p;
+        }
+    }
+}
+
 TEST_F(LodCommand, SaysThatADeformingMeshIsMeasuredAtRest) {
     const MeshLevel ball = octahedralSphere(3);
     json primitive = this->primitive(ball, false);

@@ -35,6 +35,12 @@ const tinygltf::Material* materialOf(const GltfFile& file, const tinygltf::Primi
 
 bool isUnlit(const tinygltf::Material& material) { return material.extensions.contains("KHR_materials_unlit"); }
 
+/// Whether normals of the primitive are seen.
+bool isShaded(const GltfFile& file, const tinygltf::Primitive& primitive) {
+    const tinygltf::Material* material = materialOf(file, primitive);
+    return !material || !isUnlit(*material);
+}
+
 class SurfaceReader {
 public:
     SurfaceReader(const GltfFile& file, std::size_t mesh) : file_(file), mesh_(mesh) {}
@@ -77,9 +83,11 @@ private:
         take(surface_.level.positions, "POSITION", glm::vec3(0));
         // What isn't seen costs nothing: an unlit surface has no shading, tangents serve a normal map.
         const tinygltf::Material* material = materialOf(file_, primitive);
-        const bool shaded = !material || !isUnlit(*material);
+        const bool shaded = isShaded(file_, primitive);
         if (shaded) take(surface_.level.normals, "NORMAL", glm::vec3(0));
         if (shaded && material && material->normalTexture.index >= 0) take(surface_.level.tangents, "TANGENT", glm::vec4(0));
+        surface_.level.normals.resize(surface_.level.normals.empty() ? 0 : surface_.level.positions.size(), glm::vec3(0));
+        surface_.level.tangents.resize(surface_.level.tangents.empty() ? 0 : surface_.level.positions.size(), glm::vec4(0));
         take(surface_.level.uv0, "TEXCOORD_0", glm::vec2(0));
         take(surface_.level.uv1, "TEXCOORD_1", glm::vec2(0));
         take(surface_.level.colors, "COLOR_0", glm::vec4(1));
@@ -250,7 +258,7 @@ private:
                 const OrderedJson& attributes = json["primitives"][p]["attributes"];
                 if (attributes.contains("COLOR_0"))
                     primitive["attributes"]["COLOR_0"] = glb_.addColors(std::span(level.looks.colors).subspan(surface.starts[p], vertices));
-                if (options_.chain.fitNormals && attributes.contains("NORMAL") && !level.looks.normals.empty())
+                if (options_.chain.fitNormals && attributes.contains("NORMAL") && isShaded(file_, file_.model.meshes[mesh].primitives[p]))
                     primitive["attributes"]["NORMAL"] = glb_.addNormals(std::span(level.looks.normals).subspan(surface.starts[p], vertices));
             }
             primitives.push_back(std::move(primitive));
