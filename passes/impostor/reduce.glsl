@@ -3,9 +3,6 @@
 // coordinates and alpha by average, materials by count). What the paper leaves open is decided here; README.md says how.
 #include "impostor/texel.glsl"
 
-const float SAME_LAYER = 4.0;  // sides of a texel up to which what lies behind belongs to the same surface
-const float SAME_CHART = 0.125;  // difference of texture coordinates up to which they are averaged
-
 /// The place with the largest count; of equal ones the first from `first` on, which whoever asks for many texels turns from one to the next, so that no
 /// material wins all draws.
 uint commonestPlace(uint counts, uint first) {

@@ -149,11 +149,33 @@ TEST_F(ImpostorDraw, ASphereIsWhereItIsFromAnySide) {
         EXPECT_LT(drawn.added, 0.01);
         EXPECT_LT(drawn.depth, 0.1);
         EXPECT_EQ(drawn.before + drawn.behind, 0);
-        EXPECT_LT(drawn.normal, 1);
+        EXPECT_LT(drawn.normal, 0.1);
         EXPECT_LE(filled.missing, drawn.missing);
         EXPECT_LT(filled.added, 0.01);
         EXPECT_LT(errorOf(frames), 1e-4);
     }
+}
+
+// Normals lean sixty degrees to one side, and the one light stands on that side but below the plane: where they say light is, none arrives.
+TEST_F(ImpostorDraw, NoLightComesFromBelowTheSurface) {
+    Body body(1);
+    body.sheet({8, 8}, [](glm::dvec2 p) {
+        return Corner{{2 * p.x - 1, 2 * p.y - 1, 0}, glm::normalize(glm::dvec3(std::sqrt(3.0), 0, 1)), p};
+    });
+    const OrderedJson dark = {{"type", "constant"}, {"color", {1, 1, 1}}, {"strength", 0}};
+    const auto lightAt = [&](double height) {
+        const OrderedJson lights = {{{"type", "point"}, {"color", {1, 1, 1}}, {"intensity", 100}, {"position", {6, 0, height}}}};
+        Frames frames(writeScene(folder.path, body.write(folder.path, "sheet"), cameraAt({0.4, 0.3, 4.6}), {{"environment", dark}, {"lights", lights}}), {64, 64},
+                      drawBoth({{"resolution", 128}}), ports);
+        frames.run();
+        return std::pair(sumOf(frames.image("shade.color")), sumOf(frames.image("truth.color")));
+    };
+    const auto [below, black] = lightAt(-1);
+    const auto [above, lit] = lightAt(1);
+    std::printf("light from below: %.2f, geometry %.2f; from above: %.2f, geometry %.2f\n", below, black, above, lit);
+    EXPECT_NEAR(below / black, 1, 0.01);
+    EXPECT_NEAR(above / lit, 1, 0.02);
+    EXPECT_GT(above, 1.2 * below);  // which is alpha alone
 }
 
 // If this fails, one of the two ways to find the nearest texel has lost a race, or an image depends on how threads ran.

@@ -368,6 +368,7 @@ TEST(ImpostorFailures, FarAway) {
         const double finest = flicker(distance, false);
         std::printf("%g times as far: flicker over that of the truth with levels %.2f, without %.2f\n", distance, levels / truth, finest / truth);
         EXPECT_LT(levels, finest);
+        EXPECT_LT(levels, 1.5 * truth);
     }
 }
 

@@ -19,6 +19,8 @@ const uint TEXEL_BUMPED = 4u;     // the normal lies more than 18 degrees off th
 
 const float LEAST_ALPHA = 1.0 / 255.0;
 const float NORMAL_MEANS = 0.3;  // length of a mean normal from which on it tells which side is seen
+const float SAME_LAYER = 4.0;    // sides of a texel up to which what lies behind belongs to the same surface
+const float SAME_CHART = 0.125;  // difference of texture coordinates up to which they are averaged
 
 struct ImpostorTexel {
     vec3 normal;     // mean of the unit shading normals, in the view's axes: the more they differ the shorter it is

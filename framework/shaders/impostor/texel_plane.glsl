@@ -11,8 +11,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Imp
 Impostors impostorsOf(World w) { return ImpostorsMemoryOfWorld(w.impostors).value; }
 
 struct TexelPlane {
-    vec3 seen;           // normal of what the texel shows, unit, in the view's axes
-    vec3 normal;         // of the plane, the same
+    vec3 normal;         // unit, in the view's axes
     vec3 middle;         // object space
     vec3 along, across;  // half its sides: from the middle to those of its right and its upper border
 };
@@ -36,6 +35,11 @@ vec3 depthNormal(Impostors made, uint mesh, TexelPlace x, float depth) {
     return normalize(vec3(-heightStep(made, mesh, x, ivec2(1, 0), depth), -heightStep(made, mesh, x, ivec2(0, 1), depth), side));
 }
 
+/// The normal of the plane that a texel is part of, in the view's axes, unit.
+vec3 planeNormal(Impostors made, uint mesh, TexelPlace x, ImpostorTexel t) {
+    return (t.flags & TEXEL_BUMPED) != 0u ? depthNormal(made, mesh, x, t.depth) : safeNormalize(t.normal, vec3(0.0, 0.0, 1.0));
+}
+
 /// Depth of the texel's plane at its middle, in the view. What a texel keeps is the nearest of the samples that it was made of: 2^(level + 1) a side, so that
 /// the outermost lie a quarter of a finest texel from its border.
 float middleDepth(Impostors made, uint level, float nearest, vec3 normal) {
@@ -48,9 +52,7 @@ TexelPlane texelPlane(Impostors made, uint mesh, TexelPlace x, ImpostorTexel t) 
     ImpostorRecord object = made.objects.at[mesh];
     ImpostorView v = impostorView(made.views, x.view);
     TexelPlane p;
-    p.seen = safeNormalize(t.normal, vec3(0.0, 0.0, 1.0));
-    p.normal = p.seen;
-    if ((t.flags & TEXEL_BUMPED) != 0u) p.normal = depthNormal(made, mesh, x, t.depth);
+    p.normal = planeNormal(made, mesh, x, t);
     vec2 window = (vec2(x.texel) + 0.5) / float(levelResolution(made, x.level));
     p.middle = windowPoint(made, object.center, object.radius, v, window, middleDepth(made, x.level, t.depth, p.normal));
     float halfSide = 0.5 * texelSide(made, object.radius, x.level);

@@ -12,7 +12,7 @@
 #include "world/scene_facts.glsl"
 #include "world/triangle.glsl"
 #if TEXEL_SURFACES
-#include "impostor/texel_plane.glsl"
+#include "impostor/texel_between.glsl"
 #endif
 
 struct SurfacePoint {
@@ -40,7 +40,12 @@ vec3 positionAt(World w, SurfacePoint p) { return placePoint(placementOf(w, p.in
 /// Texture coordinates of set 0.
 vec2 uvAt(World w, SurfacePoint p) {
 #if TEXEL_SURFACES
-    if (isTexel(p.primitive)) return unpackUv(UintArray(impostorsOf(w).objects.at[w.instances.at[p.instance].mesh].uvs).at[p.primitive - TEXEL]);
+    if (isTexel(p.primitive)) {
+        Impostors made = impostorsOf(w);
+        uint mesh = w.instances.at[p.instance].mesh;
+        TexelPlace x = texelPlace(made, p.primitive - TEXEL);
+        return texelBetween(made, mesh, x, texelAt(made, mesh, x.level, x.view, x.texel), p.barycentrics).uv;
+    }
 #endif
     return uvOn(w, cornersOf(w, p.primitive), p.barycentrics, 0u);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A texel of an impostor as a surface.
-#include "impostor/texel_plane.glsl"
+#include "impostor/texel_between.glsl"
 #include "surface/surface_point.glsl"
 #include "surface/surface_struct.glsl"
 
@@ -38,13 +38,14 @@ Surface texelSurfaceAt(World w, Hit hit, vec3 rayDirection) {
     TexelPlace x = texelPlace(made, hit.primitive - TEXEL);
     ImpostorTexel t = texelAt(made, mesh, x.level, x.view, x.texel);
     TexelPlane plane = texelPlane(made, mesh, x, t);
+    t = texelBetween(made, mesh, x, t, hit.barycentrics);
     ImpostorView v = impostorView(made.views, x.view);
     Placement placement = placementOf(w, hit.instance);
     float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
     vec3 view = -normalize(rayDirection);
     vec3 position = placePoint(placement, pointOn(plane, hit.barycentrics));
     vec3 perpendicular = mirror * placeNormal(placement, cross(plane.along, plane.across)), normal = safeNormalize(perpendicular, view);
-    vec3 shading = safeNormalize(mirror * placeNormal(placement, outOfView(v, plane.seen)), normal);
+    vec3 shading = safeNormalize(mirror * placeNormal(placement, outOfView(v, t.normal)), normal);
     bool turns = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(normal, view) < 0.0, front = ((t.flags & TEXEL_BACK) == 0u) != turns;
     float side = texelSide(made, made.objects.at[mesh].radius, x.level) * placementScale(placement);
     uint material = t.material;

@@ -3,6 +3,7 @@
 #version 460
 #include "pass.glsl"
 #include "impostor/reduce.glsl"
+#include "impostor/texel_between.glsl"
 #include "splat.glsl"
 
 const Surfel NOTHING = Surfel(NONE, 0.0, 0u, 0u, 0u, NONE, 0.0, NONE);
@@ -16,6 +17,13 @@ void nameMaterials(inout Surfel f, ImpostorRecord object, ImpostorTexel t) {
         f.materials = t.counts;
         f.measures |= SURFEL_COUNTS << 24;
     }
+}
+
+/// Normal of what a texel shows, in world space, unit: towards the camera where it has two sides.
+vec3 normalOf(World w, Impostors made, DrawnTexel x, vec3 seen, bool turned) {
+    Placement placement = placementOf(w, x.instance);
+    float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
+    return safeNormalize((turned ? -mirror : mirror) * placeNormal(placement, outOfView(impostorView(made.views, x.place.view), seen)), -w.camera.forward);
 }
 
 bool fadesWithGeometry(uint instance) {
@@ -37,9 +45,10 @@ void main() {
         ImpostorTexel t = texelAt(made, mesh, x.place.level, x.place.view, x.place.texel);
         Splat s;
         splatOf(w, made, x, t, s);
+        t = texelBetween(made, mesh, x.place, t, inSplat(s, p));
         f.instance = x.instance;
         f.depth = depthIn(s, p);
-        f.normal = packNormal(s.normal);
+        f.normal = packNormal(normalOf(w, made, x, t.normal, s.turned));
         if (s.turned) t.flags ^= TEXEL_BACK;
         if (fadesWithGeometry(x.instance)) t.flags |= SURFEL_FADES;
         f.measures = packShape(t).z;

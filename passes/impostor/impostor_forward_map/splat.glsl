@@ -12,8 +12,7 @@ struct Splat {
     vec2 a, b;      // half sides
     float depth;    // at the centre
     vec2 slope;     // depth gained along a and b
-    vec3 normal;    // unit, world space, of what the texel shows: towards the camera where it has two sides
-    bool turned;    // it is seen from its other side, and so the normal was turned
+    bool turned;    // it has two sides and is seen from the other one
     float frontal;  // cosine between the surface and the view that saw it
     float side;     // of the texel, world units
 };
@@ -32,10 +31,8 @@ bool splatOf(World w, Impostors made, DrawnTexel x, ImpostorTexel t, out Splat s
     vec3 position = placePoint(placement, plane.middle), along = placeVector(placement, plane.along), across = placeVector(placement, plane.across);
     vec3 view = w.camera.orthographic != 0u ? -w.camera.forward : normalize(w.camera.position - position);
 
-    s.normal = safeNormalize(placeNormal(placement, outOfView(v, plane.seen)) * mirror, view);
     vec3 geometric = safeNormalize(placeNormal(placement, outOfView(v, plane.normal)) * mirror, view);
     s.turned = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(geometric, view) < 0.0;
-    if (s.turned) s.normal = -s.normal;
     if (params.backFaces && !s.turned && length(t.normal) >= NORMAL_MEANS && dot(geometric, view) < -BACK_SLACK) return false;
 
     s.side = texelSide(made, object.radius, x.place.level) * placementScale(placement);

@@ -29,6 +29,17 @@ struct Shaded {
     uint mesh;
 };
 
+/// Normal of the plane that a surfel lies on, world space, unit, on the side that is seen. No light comes from below it, however far a normal map leans.
+vec3 planeOf(Surfel f, uint mesh, Placement placement, vec3 seen) {
+    if ((f.measures >> 24 & TEXEL_BUMPED) == 0u) return seen;
+    Impostors made = impostors();
+    TexelPlace x = texelPlace(made, f.texel);
+    ImpostorTexel t = shapeAt(made, mesh, x.level, x.view, x.texel);
+    bool turned = ((f.measures >> 24 ^ t.flags) & TEXEL_BACK) != 0u;
+    float side = (placementDeterminant(placement) < 0.0) != turned ? -1.0 : 1.0;
+    return safeNormalize(side * placeNormal(placement, outOfView(impostorView(made.views, x.view), planeNormal(made, mesh, x, t))), seen);
+}
+
 Shaded shadedAt(World w, ivec2 pixel) {
     Shaded shown;
     shown.alpha = 0.0;
@@ -51,9 +62,9 @@ Shaded shadedAt(World w, ivec2 pixel) {
     }
     Placement placement = placementOf(w, f.instance);
     float side = texelSide(impostors(), impostors().objects.at[shown.mesh].radius, level) * placementScale(placement);
-    vec3 normal = unpackNormal(f.normal);
+    vec3 normal = unpackNormal(f.normal), plane = planeOf(f, shown.mesh, placement, normal);
     float density = unpackDensity((f.measures >> 16) & 0xffu);
-    shown.surface = texelSurface(f.instance, TEXEL | f.texel, material, position, normal, normal, view, unpackUv(f.uv), density, side,
+    shown.surface = texelSurface(f.instance, TEXEL | f.texel, material, position, plane, normal, view, unpackUv(f.uv), density, side,
                                  texelRounding(w, f.instance, placement, side), (flags & TEXEL_BACK) == 0u);
     if (params.spread) shown.surface.normalLength = float(f.measures & 0xffffu) / 65535.0;
     return shown;
