@@ -162,11 +162,12 @@ TEST_F(ImpostorDraw, NoLightComesFromBelowTheSurface) {
     body.sheet({8, 8}, [](glm::dvec2 p) {
         return Corner{{2 * p.x - 1, 2 * p.y - 1, 0}, glm::normalize(glm::dvec3(std::sqrt(3.0), 0, 1)), p};
     });
+    const Path model = body.write(folder.path, "sheet");
     const OrderedJson dark = {{"type", "constant"}, {"color", {1, 1, 1}}, {"strength", 0}};
     const auto lightAt = [&](double height) {
         const OrderedJson lights = {{{"type", "point"}, {"color", {1, 1, 1}}, {"intensity", 100}, {"position", {6, 0, height}}}};
-        Frames frames(writeScene(folder.path, body.write(folder.path, "sheet"), cameraAt({0.4, 0.3, 4.6}), {{"environment", dark}, {"lights", lights}}), {64, 64},
-                      drawBoth({{"resolution", 128}}), ports);
+        const Path scene = writeScene(folder.path, model, cameraAt({0.4, 0.3, 4.6}), {{"environment", dark}, {"lights", lights}});
+        Frames frames(scene, {64, 64}, drawBoth({{"resolution", 128}}), ports);
         frames.run();
         return std::pair(sumOf(frames.image("shade.color")), sumOf(frames.image("truth.color")));
     };
