@@ -73,9 +73,9 @@ void TriangleTree::split(std::uint32_t node, std::span<const glm::vec3> centres)
     split(children + 1, centres);
 }
 
-double TriangleTree::distance(const glm::dvec3& p) const {
-    return std::sqrt(
-        search(p, [&](std::uint32_t slot) { return squaredDistanceToTriangle(p, corners_[slot].a, corners_[slot].b, corners_[slot].c); }));
+double TriangleTree::distance(const glm::dvec3& p, double enough) const {
+    const auto square = [&](std::uint32_t slot) { return squaredDistanceToTriangle(p, corners_[slot].a, corners_[slot].b, corners_[slot].c); };
+    return std::sqrt(search(p, enough * enough, square, [](std::uint32_t) { return 0.0; }));
 }
 
 }  // namespace lodestir

@@ -2,8 +2,10 @@
 #include <framework/scene/lod/error.h>
 
 #include <framework/core/tasks.h>
+#include <framework/scene/lod/appearance_tree.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +46,19 @@ std::vector<SurfacePoint> spread(const std::vector<glm::vec3>& positions, const 
     return points;
 }
 
+/// Of distance(i, enough), where one that is no more than `enough` need not be exact. The same whichever thread takes which.
+template <class Distance> double largest(std::size_t count, const Distance& distance) {
+    std::atomic<double> most = 0;
+    parallelFor(count, 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            double known = most;
+            const double found = distance(i, known);
+            while (found > known && !most.compare_exchange_weak(known, found)) {}
+        }
+    });
+    return most;
+}
+
 /// Largest distance from a level's vertices, triangle centres and spread points to a surface.
 float farthest(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles, const std::vector<SurfacePoint>& points,
                const TriangleTree& surface) {
@@ -57,36 +72,26 @@ float farthest(const std::vector<glm::vec3>& positions, const std::vector<glm::u
         places.push_back(at(positions, t, glm::vec3(1.0f / 3)));
     }
     for (const SurfacePoint& p : points) places.push_back(at(positions, triangles[p.triangle], p.weights));
-    std::vector<double> distances(places.size());
-    parallelFor(places.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) distances[i] = surface.distance(glm::dvec3(places[i]));
-    });
-    return distances.empty() ? 0.0f : float(std::ranges::max(distances));
+    return float(largest(places.size(), [&](std::size_t i, double enough) { return surface.distance(glm::dvec3(places[i]), enough); }));
 }
 
 /// Largest distance in space and appearance from points of a level to the other.
 float leastAlike(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles, const Appearance& appearance,
                  const std::vector<SurfacePoint>& points, const std::vector<glm::uvec3>& others, const Appearance& othersAppearance,
                  const TriangleTree& surface) {
-    std::vector<double> distances(points.size());
-    parallelFor(points.size(), 64, [&](std::size_t begin, std::size_t end) {
+    const AppearanceTree tree(surface, positions, others, othersAppearance);
+    return float(largest(points.size(), [&](std::size_t i, double enough) {
         std::array<double, Appearance::most> numbers{};
         const auto looks = std::span(numbers).first(appearance.size());
-        for (std::size_t i = begin; i < end; ++i) {
-            const glm::uvec3& t = triangles[points[i].triangle];
-            glm::dvec3 place(0);
-            std::ranges::fill(looks, 0.0);
-            for (int k = 0; k < 3; ++k) {
-                const double weight = points[i].weights[k];
-                place += weight * glm::dvec3(positions[t[k]]);
-                for (std::size_t n = 0; n < looks.size(); ++n) looks[n] += weight * double(appearance.of(t[k])[n]);
-            }
-            distances[i] = std::sqrt(surface.least(place, [&](std::uint32_t other) {
-                return nearestOn(others[other], positions, othersAppearance, place, looks).squaredDistance;
-            }));
+        const glm::uvec3& t = triangles[points[i].triangle];
+        glm::dvec3 place(0);
+        for (int k = 0; k < 3; ++k) {
+            const double weight = points[i].weights[k];
+            place += weight * glm::dvec3(positions[t[k]]);
+            for (std::size_t n = 0; n < looks.size(); ++n) looks[n] += weight * double(appearance.of(t[k])[n]);
         }
-    });
-    return distances.empty() ? 0.0f : float(std::ranges::max(distances));
+        return std::sqrt(tree.nearest(place, looks, [](std::uint32_t) { return true; }, enough).squaredDistance);
+    }));
 }
 
 /// Barycentric weights of a point in a triangle of the UV plane; none when it lies outside or the triangle has no area.

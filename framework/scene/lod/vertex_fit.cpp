@@ -2,7 +2,7 @@
 #include <framework/scene/lod/vertex_fit.h>
 
 #include <framework/core/tasks.h>
-#include <framework/scene/lod/appearance.h>
+#include <framework/scene/lod/appearance_tree.h>
 
 #include <algorithm>
 #include <array>
@@ -80,7 +80,8 @@ constexpr std::array<std::array<double, 3>, 3> places{{{2.0 / 3, 1.0 / 6, 1.0 / 
 /// near, too.
 std::vector<NearestPoint> nearestPoints(const MeshLevel& finer, const std::vector<glm::uvec3>& coarse, const std::vector<std::uint32_t>& groups) {
     const Appearance appearance(finer, Appearance::all & ~unsigned(Appearance::colors));
-    const TriangleTree tree(finer.positions, coarse);
+    const TriangleTree boxes(finer.positions, coarse);
+    const AppearanceTree tree(boxes, finer.positions, coarse, appearance);
     std::vector<NearestPoint> nearest(places.size() * finer.triangles.size());
     parallelFor(finer.triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::array<double, Appearance::most> looks{};
@@ -94,16 +95,8 @@ std::vector<NearestPoint> nearestPoints(const MeshLevel& finer, const std::vecto
                     position += weight * glm::dvec3(finer.positions[vertex]);
                     for (std::size_t n = 0; n < appearance.size(); ++n) looks[n] += weight * double(appearance.of(vertex)[n]);
                 }
-                NearestPoint& best = nearest[places.size() * t + i];
-                best.squaredDistance = std::numeric_limits<double>::infinity();
-                tree.least(position, [&](std::uint32_t other) {
-                    if (groups[other] != finer.materials[t]) return std::numeric_limits<double>::infinity();
-                    NearestPoint point =
-                        nearestOn(coarse[other], finer.positions, appearance, position, std::span(looks).first(appearance.size()));
-                    point.triangle = other;
-                    if (point.squaredDistance < best.squaredDistance) best = point;
-                    return point.squaredDistance;
-                });
+                nearest[places.size() * t + i] = tree.nearest(position, std::span(looks).first(appearance.size()),
+                                                              [&](std::uint32_t other) { return groups[other] == finer.materials[t]; });
             }
     });
     return nearest;
