@@ -205,7 +205,8 @@ bool Simplifier::isAllowed(std::uint32_t from, std::uint32_t to, Targets& target
 void Simplifier::plan(std::uint32_t place) {
     ++ages_[place];
     if (held_[place]) return;
-    Step best{std::numeric_limits<double>::infinity(), place, none, ages_[place]};
+    // What is allowed costs more to know than what a way costs: the cheapest are asked first.
+    std::vector<std::pair<double, std::uint32_t>> ways;
     Targets targets;
     for (std::uint32_t to : neighbours(place)) {
         if (!findTargets(place, to, targets)) continue;
@@ -217,9 +218,14 @@ void Simplifier::plan(std::uint32_t place) {
             for (std::size_t i = 0; i < 3; ++i) way += (points_[wedge][i] - points_[target][i]) * (points_[wedge][i] - points_[target][i]);
         }
         cost += shortnessWeight * way * way;
-        if (cost < best.cost && keepsTopology(place, to) && !turnsOver(place, to, targets)) best.cost = cost, best.to = to;
+        if (std::isfinite(cost)) ways.emplace_back(cost, to);
     }
-    if (best.to != none) steps_.push(best);
+    std::ranges::stable_sort(ways, {}, &std::pair<double, std::uint32_t>::first);
+    for (const auto& [cost, to] : ways) {
+        if (!isAllowed(place, to, targets)) continue;
+        steps_.push({cost, place, to, ages_[place]});
+        return;
+    }
 }
 
 void Simplifier::collapse(const Step& step, const Targets& targets) {
