@@ -11,6 +11,7 @@ class Mutations : public testing::Test {
 protected:
     TemporaryFolder folder;
 };
+using LongMutations = Mutations;
 
 const OrderedJson near{{"radius", 10}};
 
@@ -75,7 +76,7 @@ TEST_F(Mutations, BetweenPixels) {
 }
 
 // What decides about connections by footprint, and which light a path ends in, asked otherwise where the path was made than where it goes.
-TEST_F(Mutations, FootprintsAndLights) {
+TEST_F(LongMutations, FootprintsAndLights) {
     plant(folder.path,
           {{"one_way", "shift_check", "restir/criteria.glsl",
             "return (p.end != PAIR_SURFACE || p.at > 0.0) && spreadsOver(c.least, pdfFrom(p), p.cosineBefore, p.distance);",
@@ -151,7 +152,7 @@ TEST_F(Mutations, AbsorbedTwice) {
 }
 
 // What panes take of a light's last segment is missing in F but not behind x_k, or where the segment was traced anew.
-TEST_F(Mutations, DimmedInPart) {
+TEST_F(LongMutations, DimmedInPart) {
     plant(folder.path, {{"bright_suffix", "initial_sampling", "restir/reservoir.glsl", "if (s.k > 0u && s.k < s.d) r.radiance *= share;", ""},
                         {"bright_shift", "shift_check", "restir/shift.glsl", "dimLight(t.path, t.shape, transmittance(hit));", ""}});
     ASSERT_FALSE(HasFailure());
