@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/run_report.h>
 
+#include <fmt/format.h>
 #include <lodestir/revision.h>
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,20 @@ OrderedJson traceJson(std::span<const FrameReport> frames, const std::string& de
         begin += frame.wholeMilliseconds;
     }
     return {{"traceEvents", events}, {"displayTimeUnit", "ms"}, {"otherData", {{"device", device}}}};
+}
+
+std::string timesCsv(std::span<const FrameReport> frames) {
+    std::string text = "frame,pass,ms";
+    for (std::size_t i = 0; i < RAYS_STEPS; ++i) text += fmt::format(",{} rays", rayPurposes[i]);
+    text += "\n";
+    for (const FrameReport& frame : frames)
+        for (const PassReport& pass : frame.passes) {
+            if (!pass.ran) continue;
+            text += fmt::format("{},{},{:.4f}", frame.frame, pass.name, pass.milliseconds);
+            for (std::size_t i = 0; i < RAYS_STEPS; ++i) text += fmt::format(",{}", pass.rays[i]);
+            text += "\n";
+        }
+    return text;
 }
 
 OrderedJson runJson(Session& session, double totalMilliseconds) {

@@ -270,7 +270,54 @@ TEST_F(View, WidgetsChangeTheImageAndWhatIsSaved) {
     EXPECT_TRUE(viewer.running());
 }
 
-// If this fails, whoever edits a material while an impostor is shown waits for a bake, or sees another picture than a run of the edited graph makes.
+// If this fails, what is told of passes' times can't be taken elsewhere, or is of other frames.
+TEST_F(View, SavesTheTimesOfTheLastFrames) {
+    const Path shot = folder / "window.png";
+    Viewer viewer(*display, folder, writeGraph(), {"--size", "64x36", "--screenshot", shot.string()});
+    viewer.await("frames", [](const OrderedJson& r) { return rendered(r) && r["frames"].get<int>() >= 20; });
+    viewer.click("save times");
+    viewer.await("times", [](const OrderedJson& r) { return r["note"].get<std::string>().find("times.csv") != std::string::npos; });
+    std::istringstream lines(readText(folder / "out/times.csv"));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "frame,pass,ms,primary rays,nee rays,continue rays,replay rays,connect rays,visibility rays");
+    std::map<std::string, std::vector<int>> frames;
+    while (std::getline(lines, line)) {
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+        ASSERT_EQ(cells.size(), 9u) << line;
+        frames[cells[1]].push_back(std::stoi(cells[0]));
+        EXPECT_GT(std::stod(cells[2]), 0) << line;
+        EXPECT_EQ(cells[3], cells[1] == "trace" ? std::to_string(64 * 36) : "0") << line;
+    }
+    ASSERT_GE(frames["trace"].size(), 20u);
+    EXPECT_EQ(frames["trace"].back() - frames["trace"].front(), int(frames["trace"].size()) - 1) << "some are missing";
+    const OrderedJson trace = readJson(folder / "out/trace.json");
+    const auto named = std::ranges::count_if(trace["traceEvents"], [](const OrderedJson& event) { return event["name"] == "trace"; });
+    EXPECT_EQ(std::size_t(named), frames["trace"].size());
+
+    // The pointer on a pass: its history opens over the picture.
+    const auto window = [&] {
+        std::filesystem::remove(shot);
+        std::this_thread::sleep_for(600ms);
+        viewer.key("F12");
+        viewer.await("a picture", [&](const OrderedJson&) { return std::filesystem::exists(shot); });
+        std::this_thread::sleep_for(300ms);
+        return readPng(shot);
+    };
+    viewer.key("space");
+    viewer.await("a pause", [](const OrderedJson& r) { return r["paused"] == true; });
+    const ImageData before = window();
+    const OrderedJson box = viewer.report()["widgets"]["times of trace"];
+    viewer.point(box[0].get<double>() + 20, 0.5 * (box[1].get<double>() + box[3].get<double>()));
+    const ImageData after = window();
+    int changed = 0;
+    for (std::size_t i = 0; i < before.values.size(); i += std::size_t(before.channels)) changed += before.values[i] != after.values[i];
+    EXPECT_GT(changed, 300 * 60) << "no plot";
+    EXPECT_TRUE(viewer.running());
+}
+
 // A picture is kept, a darker variant comes: they stand side by side, the line between them is dragged, the difference is what the variant lacks.
 TEST_F(View, ComparesWithWhatWasKept) {
     const Path shot = folder / "window.png";
@@ -335,6 +382,7 @@ TEST_F(View, ComparesWithWhatWasKept) {
     EXPECT_TRUE(viewer.running());
 }
 
+// If this fails, whoever edits a material while an impostor is shown waits for a bake, or sees another picture than a run of the edited graph makes.
 TEST_F(View, AMaterialIsEditedLive) {
     const Path graph = sourceFolder / "graphs/impostor.json";
     const Arguments small{"--scene", (sourceFolder / "scenes/impostor_sphere.json").string(), "--size", "96x96", "--set", "bake.resolution=64"};

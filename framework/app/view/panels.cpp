@@ -142,6 +142,7 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_4)) viewport_.zoomTo(4);
     if (pressed(GLFW_KEY_8)) viewport_.zoomTo(8);
     if (pressed(GLFW_KEY_S)) send([out = out_](ViewSession& s) { s.save(out); });
+    if (pressed(GLFW_KEY_T)) send([out = out_](ViewSession& s) { s.saveTimes(out); });
     if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) help_ = !help_;
     if (pressed(GLFW_KEY_ESCAPE)) help_ = false;
     if (pressed(GLFW_KEY_F12)) screenshot_ = true;
@@ -245,6 +246,9 @@ void Panels::drawOutput(const ViewStatus& status) {
     }
     mark("size");
     tip("size of the frame");
+    if (button("save times", "Save times", "of the last frames, pass by pass: times.csv, and trace.json for Perfetto: T", third))
+        send([out = out_](ViewSession& s) { s.saveTimes(out); });
+    ImGui::SameLine();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().quiet);
     ImGui::TextUnformatted(status.note.c_str());
     ImGui::PopStyleColor();

@@ -17,6 +17,19 @@ std::string timeText(double milliseconds) { return fmt::format("{:.{}f}", millis
 
 }  // namespace
 
+/// Beside the pointer: the last frames, and how far they lie apart.
+void Panels::drawHistory(const PassTime& pass) {
+    if (pass.history.empty()) return;
+    std::vector<float> sorted = pass.history;
+    std::ranges::sort(sorted);
+    const auto share = [&](double part) { return timeText(sorted[std::size_t(part * double(sorted.size() - 1) + 0.5)]); };
+    ImGui::BeginTooltip();
+    quietText(fmt::format("{}: ms of the last {} frames, from 0 to {}", pass.name, sorted.size(), share(1)));
+    ImGui::PlotLines("##history", pass.history.data(), int(pass.history.size()), 0, nullptr, 0, sorted.back(), {360, 72});
+    ImGui::TextUnformatted(fmt::format("median {}   95 % {}   most {}", share(0.5), share(0.95), share(1)).c_str());
+    ImGui::EndTooltip();
+}
+
 void Panels::drawTimes(const ViewStatus& status) {
     double most = 0, all = 0, rays = 0;
     const auto raysOf = [](const PassTime& pass) {
@@ -55,7 +68,9 @@ void Panels::drawTimes(const ViewStatus& status) {
     for (const PassTime& pass : status.passes) {
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
-        ImGui::TextUnformatted(pass.name.c_str());
+        ImGui::Selectable(pass.name.c_str(), false, ImGuiSelectableFlags_SpanAllColumns);
+        mark("times of " + pass.name);
+        if (ImGui::IsItemHovered()) drawHistory(pass);
         ImGui::TableSetColumnIndex(1);
         if (pass.setup || !pass.ran) {
             quietText(pass.ran ? "set up" : "kept");
@@ -157,6 +172,7 @@ void Panels::drawHelp() {
                                                {"A", "keep what is shown, to compare; let it go"},
                                                {"B", "A | B with a line to drag, A, B, A - B"},
                                                {"S", "save what is shown (EXR, PNG)"},
+                                               {"T", "save the last frames' times (CSV, Perfetto)"},
                                                {"F12", "picture of the whole window"},
                                                {"Ctrl + click on a slider", "type the number"},
                                                {"orange dot", "changed; click: back to the graph's value"},

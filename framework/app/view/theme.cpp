@@ -68,7 +68,7 @@ void setTheme() {
     c[ImGuiCol_FrameBg] = {0.165f, 0.176f, 0.196f, 1};
     c[ImGuiCol_FrameBgHovered] = {0.205f, 0.218f, 0.24f, 1};
     c[ImGuiCol_FrameBgActive] = {0.235f, 0.25f, 0.275f, 1};
-    c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrabActive] = accent;
+    c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrabActive] = c[ImGuiCol_PlotLines] = accent;
     c[ImGuiCol_SliderGrab] = {0.42f, 0.445f, 0.485f, 1};
     c[ImGuiCol_Button] = {0.19f, 0.203f, 0.225f, 1};
     c[ImGuiCol_ButtonHovered] = {0.245f, 0.26f, 0.285f, 1};

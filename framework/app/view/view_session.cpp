@@ -2,6 +2,7 @@
 #include <framework/app/view/view_session.h>
 
 #include <framework/app/dump.h>
+#include <framework/app/run_report.h>
 #include <framework/core/log.h>
 #include <framework/gpu/commands.h>
 #include <framework/gpu/include_closure.h>
@@ -12,6 +13,7 @@
 #include <framework/image/preview.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <set>
@@ -24,6 +26,14 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 /// Follows `value`, at once where it is far off.
+constexpr std::size_t framesRemembered = 240;
+
+/// The latest comes last.
+template <class T> void remember(std::vector<T>& values, const T& value) {
+    if (values.size() == framesRemembered) values.erase(values.begin());
+    values.push_back(value);
+}
+
 void smooth(double& mean, double value) { mean = mean <= 0 || value > 2 * mean || value < 0.5 * mean ? value : 0.8 * mean + 0.2 * value; }
 
 bool sameView(const CameraKey& a, const CameraKey& b) {
@@ -114,6 +124,7 @@ void ViewSession::build() {
             session_ = std::move(next);
             broken_ = false;
             ++status_.builds;
+            reports_.clear();
             stale_.clear();
             rereadScene_ = false;
             status_.framesStill = 0;
@@ -147,6 +158,7 @@ void ViewSession::frame() {
 }
 
 void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
+    remember(reports_, report);
     ++status_.framesDone;
     ++status_.framesStill;
     status_.nextFrame = session_->runner().nextFrame();
@@ -160,6 +172,7 @@ void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
         time.runs += pass.ran;
         time.setup = pass.setup;
         if (pass.ran) smooth(time.milliseconds, pass.milliseconds);
+        if (pass.ran && !pass.setup) remember(time.history, float(pass.milliseconds));
         time.rays = pass.rays;
         if (!pass.setup) device += time.milliseconds;
     }
@@ -405,6 +418,17 @@ void ViewSession::save(const Path& folder) {
         const bool image = session_->graph().port(source).type.kind == PortType::Kind::image;
         if (image) writePng(path.string() + ".png", preview(session_->runner().readImage(source)));
         status_.note = fmt::format("wrote {}{}", path.string(), image ? ".exr and .png" : ".npy");
+        log::note("{}", status_.note);
+    });
+    tell();
+}
+
+void ViewSession::saveTimes(const Path& folder) {
+    if (!session_) return;
+    attempt([&] {
+        writeFile(folder / "times.csv", timesCsv(reports_));
+        writeFile(folder / "trace.json", traceJson(reports_, status_.graph->device).dump() + "\n");
+        status_.note = fmt::format("wrote {}: {} frames; trace.json beside it", (folder / "times.csv").string(), reports_.size());
         log::note("{}", status_.note);
     });
     tell();

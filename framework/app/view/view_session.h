@@ -36,6 +36,7 @@ public:
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
     void save(const Path& folder);       ///< EXR and PNG of the shown image, .npy of a shown buffer
     void saveGraph(const Path& file);    ///< with all that is set now
+    void saveTimes(const Path& folder);  ///< of the last frames: times.csv, and trace.json for Perfetto
 
 private:
     void adjust(Graph& graph);
@@ -63,6 +64,7 @@ private:
     std::uint32_t pick_ = 0;
     bool statistics_ = false, broken_ = false, stepping_ = false, rereadScene_ = false;
     std::uint64_t pictures_ = 0;
+    std::vector<FrameReport> reports_;         ///< of the session's last frames
     CameraKey lastCamera_;
     std::vector<std::shared_ptr<gpu::Buffer>> buffers_;
 };
