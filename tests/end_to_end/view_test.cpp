@@ -109,6 +109,17 @@ public:
         }
         display_.xdotool({"mouseup", button});
     }
+    /// The window as it is now; `shot`: what --screenshot says.
+    ImageData window(const Path& shot) {
+        std::filesystem::remove(shot);
+        key("F12");
+        await("a picture of the window", [&](const OrderedJson&) {
+            std::error_code none;
+            return std::filesystem::file_size(shot, none) > 0 && !none;
+        });
+        std::this_thread::sleep_for(200ms);
+        return readPng(shot);
+    }
     bool running() { return process_.running(); }
     Output wait() { return process_.wait(90s); }
 
@@ -298,20 +309,13 @@ TEST_F(View, SavesTheTimesOfTheLastFrames) {
     EXPECT_EQ(std::size_t(named), frames["trace"].size());
 
     // The pointer on a pass: its history opens over the picture.
-    const auto window = [&] {
-        std::filesystem::remove(shot);
-        std::this_thread::sleep_for(600ms);
-        viewer.key("F12");
-        viewer.await("a picture", [&](const OrderedJson&) { return std::filesystem::exists(shot); });
-        std::this_thread::sleep_for(300ms);
-        return readPng(shot);
-    };
     viewer.key("space");
     viewer.await("a pause", [](const OrderedJson& r) { return r["paused"] == true; });
-    const ImageData before = window();
+    const ImageData before = viewer.window(shot);
     const OrderedJson box = viewer.report()["widgets"]["times of trace"];
     viewer.point(box[0].get<double>() + 20, 0.5 * (box[1].get<double>() + box[3].get<double>()));
-    const ImageData after = window();
+    std::this_thread::sleep_for(600ms);
+    const ImageData after = viewer.window(shot);
     int changed = 0;
     for (std::size_t i = 0; i < before.values.size(); i += std::size_t(before.channels)) changed += before.values[i] != after.values[i];
     EXPECT_GT(changed, 300 * 60) << "no plot";
@@ -330,14 +334,7 @@ TEST_F(View, ComparesWithWhatWasKept) {
     viewer.await("the other variant", [](const OrderedJson& r) { return r["builds"] == 2 && r["framesStill"].get<int>() > 3; });
     /// Mean of the picture left and right of its middle, at the same distance, where both show much the same.
     const auto halves = [&] {
-        std::filesystem::remove(shot);
-        viewer.key("F12");
-        viewer.await("a picture of the window", [&](const OrderedJson&) {
-            std::error_code none;
-            return std::filesystem::file_size(shot, none) > 0 && !none;
-        });
-        std::this_thread::sleep_for(200ms);
-        const ImageData window = readPng(shot);
+        const ImageData window = viewer.window(shot);
         const OrderedJson area = viewer.report()["area"];
         const int x = area[0].get<int>() + area[2].get<int>() / 2, y = area[1].get<int>() + area[3].get<int>() / 2;
         std::pair<double, double> mean;

@@ -51,7 +51,6 @@ private:
     void drawParameter(const PassInfo& pass, std::size_t index);
     void drawOutput(const ViewStatus& status);
     void drawTimes(const ViewStatus& status);
-    static void drawHistory(const PassTime& pass);
     void drawFacts(const ViewStatus& status);
     void drawProblems(const ViewStatus& status);
     void drawHelp();

@@ -15,10 +15,8 @@ namespace {
 
 std::string timeText(double milliseconds) { return fmt::format("{:.{}f}", milliseconds, milliseconds < 10 ? 2 : milliseconds < 100 ? 1 : 0); }
 
-}  // namespace
-
 /// Beside the pointer: the last frames, and how far they lie apart.
-void Panels::drawHistory(const PassTime& pass) {
+void drawHistory(const PassTime& pass) {
     if (pass.history.empty()) return;
     std::vector<float> sorted = pass.history;
     std::ranges::sort(sorted);
@@ -29,6 +27,8 @@ void Panels::drawHistory(const PassTime& pass) {
     ImGui::TextUnformatted(fmt::format("median {}   95 % {}   most {}", share(0.5), share(0.95), share(1)).c_str());
     ImGui::EndTooltip();
 }
+
+}  // namespace
 
 void Panels::drawTimes(const ViewStatus& status) {
     double most = 0, all = 0, rays = 0;

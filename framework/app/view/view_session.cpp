@@ -28,12 +28,6 @@ double millisecondsSince(Clock::time_point start) { return std::chrono::duration
 /// Follows `value`, at once where it is far off.
 constexpr std::size_t framesRemembered = 240;
 
-/// The latest comes last.
-template <class T> void remember(std::vector<T>& values, const T& value) {
-    if (values.size() == framesRemembered) values.erase(values.begin());
-    values.push_back(value);
-}
-
 void smooth(double& mean, double value) { mean = mean <= 0 || value > 2 * mean || value < 0.5 * mean ? value : 0.8 * mean + 0.2 * value; }
 
 bool sameView(const CameraKey& a, const CameraKey& b) {
@@ -158,7 +152,8 @@ void ViewSession::frame() {
 }
 
 void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
-    remember(reports_, report);
+    if (reports_.size() == framesRemembered) reports_.erase(reports_.begin());
+    reports_.push_back(report);
     ++status_.framesDone;
     ++status_.framesStill;
     status_.nextFrame = session_->runner().nextFrame();
@@ -172,7 +167,9 @@ void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
         time.runs += pass.ran;
         time.setup = pass.setup;
         if (pass.ran) smooth(time.milliseconds, pass.milliseconds);
-        if (pass.ran && !pass.setup) remember(time.history, float(pass.milliseconds));
+        time.history.clear();
+        for (const FrameReport& frame : reports_)
+            if (frame.passes[i].ran && !pass.setup) time.history.push_back(float(frame.passes[i].milliseconds));
         time.rays = pass.rays;
         if (!pass.setup) device += time.milliseconds;
     }

@@ -74,7 +74,7 @@ struct PassTime {
     std::uint64_t runs = 0;   ///< frames in which it ran
     double milliseconds = 0;  ///< smoothed over some frames
     RayCounts rays{};         ///< of the last frame
-    std::vector<float> history;  ///< milliseconds of the last frames in which it ran, the latest last
+    std::vector<float> history;  ///< milliseconds of the session's last frames in which it ran, the latest last
 };
 
 struct ViewStatus {

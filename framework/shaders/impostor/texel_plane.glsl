@@ -40,6 +40,12 @@ vec3 planeNormal(Impostors made, uint mesh, TexelPlace x, ImpostorTexel t) {
     return (t.flags & TEXEL_BUMPED) != 0u ? depthNormal(made, mesh, x, t.depth) : safeNormalize(t.normal, vec3(0.0, 0.0, 1.0));
 }
 
+/// A direction in a view's axes as a normal in world space, unit; `otherwise` where it has no length.
+vec3 normalOutOfView(Placement placement, ImpostorView v, vec3 seen, vec3 otherwise) {
+    float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
+    return safeNormalize(mirror * placeNormal(placement, outOfView(v, seen)), otherwise);
+}
+
 /// Depth of the texel's plane at its middle, in the view. What a texel keeps is the nearest of the samples that it was made of: 2^(level + 1) a side, so that
 /// the outermost lie a quarter of a finest texel from its border.
 float middleDepth(Impostors made, uint level, float nearest, vec3 normal) {

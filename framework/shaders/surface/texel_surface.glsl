@@ -45,7 +45,7 @@ Surface texelSurfaceAt(World w, Hit hit, vec3 rayDirection) {
     vec3 view = -normalize(rayDirection);
     vec3 position = placePoint(placement, pointOn(plane, hit.barycentrics));
     vec3 perpendicular = mirror * placeNormal(placement, cross(plane.along, plane.across)), normal = safeNormalize(perpendicular, view);
-    vec3 shading = safeNormalize(mirror * placeNormal(placement, outOfView(v, t.normal)), normal);
+    vec3 shading = normalOutOfView(placement, v, t.normal, normal);
     bool turns = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(normal, view) < 0.0, front = ((t.flags & TEXEL_BACK) == 0u) != turns;
     float side = texelSide(made, made.objects.at[mesh].radius, x.level) * placementScale(placement);
     uint material = t.material;

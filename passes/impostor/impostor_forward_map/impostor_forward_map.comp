@@ -19,13 +19,6 @@ void nameMaterials(inout Surfel f, ImpostorRecord object, ImpostorTexel t) {
     }
 }
 
-/// Normal of what a texel shows, in world space, unit: towards the camera where it has two sides.
-vec3 normalOf(World w, Impostors made, DrawnTexel x, vec3 seen, bool turned) {
-    Placement placement = placementOf(w, x.instance);
-    float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
-    return safeNormalize((turned ? -mirror : mirror) * placeNormal(placement, outOfView(impostorView(made.views, x.place.view), seen)), -w.camera.forward);
-}
-
 bool fadesWithGeometry(uint instance) {
     Drawn d = drawn(instance);
     return d.share < 1.0 && (d.now.level == NOT_DRAWN || d.before.level == NOT_DRAWN);
@@ -48,7 +41,8 @@ void main() {
         t = texelBetween(made, mesh, x.place, t, inSplat(s, p));
         f.instance = x.instance;
         f.depth = depthIn(s, p);
-        f.normal = packNormal(normalOf(w, made, x, t.normal, s.turned));
+        vec3 normal = normalOutOfView(placementOf(w, x.instance), impostorView(made.views, x.place.view), t.normal, -w.camera.forward);
+        f.normal = packNormal(s.turned ? -normal : normal);
         if (s.turned) t.flags ^= TEXEL_BACK;
         if (fadesWithGeometry(x.instance)) t.flags |= SURFEL_FADES;
         f.measures = packShape(t).z;

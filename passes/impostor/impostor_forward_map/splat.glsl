@@ -26,12 +26,11 @@ bool splatOf(World w, Impostors made, DrawnTexel x, ImpostorTexel t, out Splat s
     ImpostorRecord object = made.objects.at[mesh];
     ImpostorView v = impostorView(made.views, x.place.view);
     Placement placement = placementOf(w, x.instance);
-    float mirror = placementDeterminant(placement) < 0.0 ? -1.0 : 1.0;
     TexelPlane plane = texelPlane(made, mesh, x.place, t);
     vec3 position = placePoint(placement, plane.middle), along = placeVector(placement, plane.along), across = placeVector(placement, plane.across);
     vec3 view = w.camera.orthographic != 0u ? -w.camera.forward : normalize(w.camera.position - position);
 
-    vec3 geometric = safeNormalize(placeNormal(placement, outOfView(v, plane.normal)) * mirror, view);
+    vec3 geometric = normalOutOfView(placement, v, plane.normal, view);
     s.turned = (t.flags & TEXEL_TWO_SIDED) != 0u && dot(geometric, view) < 0.0;
     if (params.backFaces && !s.turned && length(t.normal) >= NORMAL_MEANS && dot(geometric, view) < -BACK_SLACK) return false;
 

@@ -35,9 +35,9 @@ vec3 planeOf(Surfel f, uint mesh, Placement placement, vec3 seen) {
     Impostors made = impostors();
     TexelPlace x = texelPlace(made, f.texel);
     ImpostorTexel t = shapeAt(made, mesh, x.level, x.view, x.texel);
+    vec3 plane = normalOutOfView(placement, impostorView(made.views, x.view), planeNormal(made, mesh, x, t), seen);
     bool turned = ((f.measures >> 24 ^ t.flags) & TEXEL_BACK) != 0u;
-    float side = (placementDeterminant(placement) < 0.0) != turned ? -1.0 : 1.0;
-    return safeNormalize(side * placeNormal(placement, outOfView(impostorView(made.views, x.view), planeNormal(made, mesh, x, t))), seen);
+    return turned ? -plane : plane;
 }
 
 Shaded shadedAt(World w, ivec2 pixel) {
