@@ -40,7 +40,7 @@ private:
     LodPolicy policy_;
 };
 
-/// "trace.spp" of the one pass that has such a parameter.
+/// "trace.spp" of the one pass that has such a parameter; empty where none has, so that a frame is one sample.
 std::string samplesParameter(const Graph& graph, const Where& where) {
     std::string name;
     for (const GraphNode& node : graph.nodes)
@@ -48,7 +48,6 @@ std::string samplesParameter(const Graph& graph, const Where& where) {
             if (!name.empty()) throw Error(where, "the reference has two passes with a parameter \"spp\"");
             name = node.name + ".spp";
         }
-    if (name.empty()) throw Error(where, "the reference has no pass with a parameter \"spp\"");
     return name;
 }
 
@@ -129,7 +128,8 @@ void Stage::check() {
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
         attempt([&] {
             const StagedGraph reference = build(study_.reference, {}, scene, 0);
-            if (!study_.referenceExact) samplesParameter(reference.graph, study_.reference.where);
+            if (!study_.referenceExact && samplesParameter(reference.graph, study_.reference.where).empty() && study_.kind == StudyKind::ensemble)
+                throw Error(study_.reference.where, "the reference has no pass with a parameter \"spp\"", "an ensemble's takes its samples in batches");
             referenceFilters = filtersOf(reference.graph, reference.port);
         });
     for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene)
@@ -283,6 +283,7 @@ void Stage::makeHalf(const ReferenceHalf& half) {
 Seen Stage::see(std::size_t index) { return seeFrames(renderer_, study_, study_.scenes[index], scene(index)); }
 
 int Stage::samplesAFrame(const Graph& graph) const {
+    if (samplesParameter(graph, study_.reference.where).empty()) return 1;
     const auto pixels = std::uint64_t(graph.description.size.x) * graph.description.size.y;
     return std::min(study_.referenceSamples / 2, int(std::clamp<std::uint64_t>(samplesPerFrame / pixels, 1, 1024)));
 }
@@ -296,24 +297,32 @@ ImageData Stage::renderHalf(StagedGraph& staged, const ReferenceHalf& half) {
         return firstChannels(imageOf(*runner, staged), 3);
     }
     const std::string samplesName = samplesParameter(staged.graph, study_.reference.where);
-    setParameter(staged.graph, samplesName, Json(samplesAFrame(staged.graph)));
+    const auto takeSamples = [&](int samples) {
+        if (!samplesName.empty()) setParameter(staged.graph, samplesName, Json(samples));
+    };
+    takeSamples(samplesAFrame(staged.graph));
     const std::unique_ptr<Runner> runner = makeRunner(staged, half.scene);
     const int total = study_.referenceSamples / 2;
     const glm::uvec2 size = staged.graph.description.size;
     std::vector<double> sum(std::size_t(size.x) * size.y * 3);
     std::uint32_t seed = firstReferenceSeed + half.index * seedsPerHalf;
     log::Progress progress(fmt::format("reference of frame {}, half {}", half.frame, half.index == 0 ? "A" : "B"), std::size_t(total));
+    std::optional<ImageData> first;
     for (int done = 0; done < total; ++seed) {
         const int samples = std::min(samplesAFrame(staged.graph), total - done);
-        setParameter(staged.graph, samplesName, Json(samples));
+        takeSamples(samples);
         staged.graph.description.seed = seed;
         runner->reset();
         runner->setFrame(std::uint32_t(half.frame));
         runner->run();
-        const ImageData image = imageOf(*runner, staged);
+        ImageData image = imageOf(*runner, staged);
+        if (first && samplesName.empty() && image.values == first->values)
+            throw Error(study_.reference.where, "the reference is the same whatever the seed: there is nothing for its \"spp\" to average",
+                        "say \"exact\": true instead, or let what pixels see be drawn by chance, as \"film\": \"random\" does");
         for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += double(image.values[i]) * samples / total;
         done += samples;
         progress.advance(std::size_t(samples));
+        if (!first) first = std::move(image);
     }
     ImageData result = makeImage(int(size.x), int(size.y), 3);
     std::ranges::transform(sum, result.values.begin(), [](double value) { return float(value); });

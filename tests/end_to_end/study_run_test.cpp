@@ -154,6 +154,41 @@ TEST_F(StudyRunTest, FlickerIsMeasuredOfFramesInARow) {
     EXPECT_NE(refused.err.find("\"tflip\" needs two measured frames in a row"), std::string::npos) << refused.err;
 }
 
+// One frame of a graph without samples a pixel is one sample. If this fails, a reference is a single draw that counts as many, or the same draw many times.
+TEST_F(StudyRunTest, AReferenceIsTheMeanOfFramesWhereNoPassTakesSamples) {
+    write("seen.json", {{"format", 1},
+                        {"scene", (sourceFolder / "scenes/cornell.json").string()},
+                        {"frame", {{"size", {32, 18}}}},
+                        {"passes", {{"hits", {{"type", "visibility"}, {"set", {{"lens", false}}}}}}},
+                        {"show", "hits.albedo"}});
+    OrderedJson json = readJson(folder / "study.json");
+    const std::string graph = (folder / "seen.json").string();
+    constexpr int samples = 64;
+    json["reference"] = {{"graph", graph}, {"spp", samples}};
+    json["seeds"] = 8;
+    json["techniques"] = {{"a sample", {{"graph", graph}}}};
+    json["metrics"] = {"mse", "bias"};
+    json["charts"] = {"comparison"};
+    write("study.json", json);
+    const Output output = study("out");
+    ASSERT_EQ(output.exitCode, 0) << output.err;
+    double error = 0, noise = 0, bias = 0;
+    for (const OrderedJson& row : rows("out/results.jsonl")) {
+        error += row["metrics"]["mse"].get<double>();
+        noise += row["referenceNoise"]["mse"].get<double>();
+        bias += row["metrics"]["bias"].get<double>() / 8;
+    }
+    EXPECT_NEAR(error / noise, samples, 0.4 * samples);  // of the few pixels on an outline
+    EXPECT_NEAR(bias, 0, 0.01);
+
+    json["reference"]["set"] = json["techniques"]["a sample"]["set"] = {{"hits.film", "centre"}};
+    write("study.json", json);
+    const Output same = study("same");
+    EXPECT_EQ(same.exitCode, 1);
+    EXPECT_NE(same.err.find("the reference is the same whatever the seed"), std::string::npos) << same.err;
+    EXPECT_NE(same.err.find("\"exact\": true"), std::string::npos) << same.err;
+}
+
 // If this fails, who has no Python learns nothing of a study, or not why there is no page.
 TEST_F(StudyRunTest, WithoutPythonTheResultsAreThere) {
     const Arguments command{LODESTIR_BINARY, "study", (folder / "study.json").string(), "--out", (folder / "out").string()};
