@@ -5,7 +5,10 @@
 
 #include <framework/image/image_file.h>
 #include <framework/shaders/world/primary_hit.h>
+#include <passes/restir/sample_hit.h>
 
+#include <algorithm>
+#include <map>
 
 namespace lodestir::test {
 namespace {
@@ -67,6 +70,69 @@ TEST_F(HistoryTest, DuplicationMapCountsCopies) {
             EXPECT_TRUE(empty > 0 || height == 1);
         }
     }
+}
+
+// Where paths of last frame are found again, and at which place of their pixel. If this fails, the fractional gather takes paths of elsewhere, or leaves them at
+// the place inside the pixel that they had, like the nearest.
+TEST_F(HistoryTest, PathsMoveByFractionsOfPixels) {
+    constexpr glm::uvec2 size{48, 27};
+    OrderedJson passes{{"hits", hitsNode()},
+                       {"initial", initialNode({{"bounces", 1}})},
+                       {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))}};
+    passes["hits"]["in"]["worldPrev"] = "scene@prev";
+    Frames frames(sceneFile("moving_furnace"), size, passes, {"temporal.paths.reservoirs", "temporal.paths.samples", "hits.motion"});
+    for (const char* gather : {"nearest", "fractional"}) {
+        frames.set("temporal.gather", Json(gather));
+        frames.restart(0);
+        std::multimap<std::uint64_t, glm::dvec2> last;  // by a path's seed: its places on the film, pixels
+        int found = 0, off = 0, between = 0;
+        const auto differ = [](glm::dvec2 a, glm::dvec2 b) { return glm::any(glm::greaterThan(glm::abs(a - b), glm::dvec2(6e-4))); };
+        for (int frame = 0; frame < 4; ++frame) {
+            frames.run();
+            const auto paths = frames.records<Reservoir>("temporal.paths.reservoirs");
+            const auto samples = frames.records<SampleHit>("temporal.paths.samples");
+            const ImageData motion = frames.image("hits.motion");
+            std::multimap<std::uint64_t, glm::dvec2> now;
+            for (std::uint32_t i = 0; i < paths.size(); ++i) {
+                if (paths[i].W <= 0) continue;
+                const glm::ivec2 pixel(i % size.x, i / size.x);
+                const std::uint64_t seed = std::uint64_t(paths[i].seed.y) << 32 | paths[i].seed.x;
+                const glm::dvec2 place = glm::dvec2(pixel) + glm::dvec2(samples[i].hit.film);
+                now.emplace(seed, place);
+                const auto [first, end] = last.equal_range(seed);
+                if (first == end) continue;
+                const glm::dvec2 asked = place + glm::dvec2(motion.at(pixel.x, pixel.y, 0), motion.at(pixel.x, pixel.y, 1));
+                ++found;
+                off += std::all_of(first, end, [&](const auto& path) { return differ(path.second, asked); });
+                between += std::all_of(first, end, [&](const auto& path) { return differ(path.second - place, glm::round(path.second - place)); });
+            }
+            last = std::move(now);
+        }
+        EXPECT_GT(found, 500) << gather;
+        if (gather == std::string("nearest")) {
+            EXPECT_EQ(between, 0);
+        } else {
+            EXPECT_EQ(off, 0);
+            EXPECT_GT(between, found / 2);
+        }
+    }
+}
+
+// If this fails, a picture that stands still has another history by fractions of pixels, which are whole there.
+TEST_F(HistoryTest, WhatStandsStillIsGatheredAlike) {
+    const OrderedJson passes{{"hits", hitsNode()},
+                             {"initial", initialNode({{"bounces", 1}})},
+                             {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))},
+                             {"shade", shadeNode("temporal")}};
+    Frames frames(sceneFile("ensemble_glossy"), {24, 12}, passes, {"shade"});
+    std::vector<float> images[2];
+    for (const int i : {0, 1}) {
+        frames.set("temporal.gather", Json(i == 0 ? "nearest" : "fractional"));
+        frames.restart(0);
+        for (int frame = 0; frame < 4; ++frame) frames.run();
+        images[i] = frames.image("shade").values;
+    }
+    EXPECT_EQ(images[0], images[1]);
 }
 
 // If this fails, the cap isn't what copies ask for. Before a camera that stands still a pixel's history comes from the pixel itself.

@@ -157,6 +157,7 @@ TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
         bool centre;
         std::vector<Setting> set;
     } techniques[] = {{"temporal only", "restir_pt.json", "temporal only", false, {bounces, many}},
+                      {"fractional gather", "restir_pt.json", "temporal only", false, {bounces, many, {"temporal.gather", Json("fractional")}}},
                       {"spatial only", "restir_pt.json", "spatial only", false, {bounces, many, radius}},
                       {"ReSTIR PT", "restir_pt.json", nullptr, false, {bounces, many, radius}},
                       {"splatting", "restir_lod.json", nullptr, false, {bounces, many, radius}},

@@ -10,6 +10,8 @@
 
 using namespace lodestir;
 
+enum class Gather { nearest, fractional };
+
 struct TemporalReprojection final : Pass {
     In<World>              world{this, "world", "the scene"};
     In<World>              worldPrev{this, "worldPrev", "last frame's scene: what the own path would have been there"};
@@ -26,13 +28,22 @@ struct TemporalReprojection final : Pass {
     Out<Image>             color{this, "color",
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
                                  Format::rgba32f, Need::optional};
+    Param<Gather>          gather{this, "gather", Gather::nearest, {"nearest", "fractional"},
+                                  "where the pixel's past is: the pixel that its centre was in, whose path keeps its place inside the pixel; or the four that it "
+                                  "lay on, of whose paths each keeps its place on what is seen, moved by the fraction of a pixel as well (Zhang et al. 2024, Area "
+                                  "ReSTIR). The nearest wherever the camera sample isn't the path's (camera of initial_sampling)"};
     History                reused{this};
     Similarity             similarity{this, -1, 1e6f};
     SuffixRule             suffix{this};
     PassThrough            off{this, paths, pathsOut};
     InPlace                over{this, paths, pathsOut};
 
-    void execute(Frame& frame) override { frame.dispatch(shader, walkExtent(frame.size(), frame.isBound(rates))); }
+    void execute(Frame& frame) override {
+        if (gather == Gather::fractional && frame.isBound(rates))
+            throw Error("a temporal_reprojection can't gather by fractions of pixels where blocks of pixels share a path",
+                        "unwire \"rates\", or set \"gather\" to \"nearest\"");
+        frame.dispatch(shader, walkExtent(frame.size(), frame.isBound(rates)));
+    }
 };
 LODESTIR_PASS(TemporalReprojection, "temporal_reprojection.comp",
               "Resamples each pixel's path with the one that last frame held where the pixel was (ReSTIR PT's temporal reuse).")
