@@ -101,9 +101,9 @@ class Study:
             raise Missing(f"{self.name} has no squared bias and variance of {metric} of {technique}")
         return with_interval(*found[part])
 
-    def mean(self, technique, metric, scene=None, passes=None):
-        """Over all measured frames that have it: of an error, or the "ms" of some passes."""
-        frames = list(self.results.frames)
+    def mean(self, technique, metric, scene=None, passes=None, frames=None):
+        """Over the measured frames that have it, or some of them: of an error, or the "ms" of some passes."""
+        frames = list(self.results.frames if frames is None else frames)
         if metric == "ms":
             return plain(numpy.mean([self._cost_in(scene or self.scenes[0], technique, "ms", passes, (), frame) for frame in frames]))
         found = [self._cell(technique, scene, frame)["metrics"] for frame in frames]
