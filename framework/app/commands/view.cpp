@@ -86,6 +86,7 @@ int showWindow(const ViewOptions& options) {
             report.write(*status, panels, viewport, area);
             if (last) break;
         }
+        canvas.wait();  // the last drawing uses what ends before the canvas does
     }
     if (!failure.empty()) throw Error(failure);
     if (!device->validationMessages().empty())
