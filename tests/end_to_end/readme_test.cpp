@@ -29,6 +29,7 @@ std::string shrunk(std::string command) {
     replace("spp=[0-9]+", "spp=2");
     const bool isView = command.starts_with("build/lodestir view ");
     if (std::regex_search(command, std::regex("^build/lodestir (run|view|probe) ")) && command.find("--size") == command.npos) command += " --size 48x27";
+    if (command.starts_with("build/lodestir run ") && command.find("--frames") == command.npos) command += " --frames 2";
     if (command.find("--impostor") != command.npos) command += " --views 6 --resolution 64";
     return isView ? "xvfb-run -a " + command + " --frames 2" : command;
 }
