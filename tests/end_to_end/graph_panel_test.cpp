@@ -54,12 +54,12 @@ protected:
 
 TEST_F(GraphPanel, EditsWhatRuns) {
     Viewer viewer(*display, folder, sourceFolder / "graphs/restir_pt.json",
-                  {"--scene", (sourceFolder / "scenes/cornell.json").string(), "--size", "96x54"});
+                  {"--scene", (sourceFolder / "scenes/cornell.json").string(), "--size", "96x54", "--set", "temporal.depth=0.5"});
     viewer.await("frames", rendered, patience);
     open(viewer);
     const OrderedJson before = saved(viewer, "restir_pt.json");
 
-    // Another way of temporal reuse, with all wires as they were; and back.
+    // Another way of temporal reuse, with all wires as they were, but without the parameter that it hasn't; and back.
     viewer.click("node: temporal", 0.5, "3");
     viewer.click("menu: swap");
     viewer.click("swap: temporal_splat");
@@ -67,6 +67,7 @@ TEST_F(GraphPanel, EditsWhatRuns) {
     EXPECT_EQ(swapped["builds"], 2);
     const OrderedJson splat = saved(viewer, "restir_pt.json")["passes"]["temporal"];
     EXPECT_EQ(splat["type"], "temporal_splat");
+    EXPECT_FALSE(splat["set"].contains("depth"));
     for (const auto& [input, source] : before["passes"]["temporal"]["in"].items()) EXPECT_EQ(splat["in"][input], source) << input;
     viewer.await("more frames", [&](const OrderedJson& r) { return r["frames"].get<int>() > swapped["frames"].get<int>() + 2; }, patience);
     viewer.key("ctrl+z");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What was done to a graph by hand, step by step, so that it can be taken back and done again. No window, no GPU.
 #pragma once
-#include <framework/core/json.h>
+#include <framework/graph/description.h>
 #include <framework/pass/parameter.h>
 
 #include <chrono>
@@ -16,6 +16,7 @@ namespace lodestir {
 struct HandMade {
     std::optional<std::string> variant;
     std::vector<Json> patches;         ///< merged into the graph behind the variant, one after the other
+    std::vector<Setting> settings;     ///< by the command line; a pass that is another now has no use for its own
     std::map<std::string, Value> set;  ///< parameters, "pass.parameter"
 };
 

@@ -182,8 +182,10 @@ private:
             if (input.port().optional || taken_.contains(input.name())) continue;
             const auto fits = [&](const Given& g) { return !g.isTaken && input.fits(g.input); };
             const auto free = std::ranges::find_if(given_, fits);
-            if (free != given_.end()) take(*free, input, in);
-            else if (!(isHandle(input) && isMadeElsewhere(graph_, node_, input)) && !takeLastFrames(input, in)) return false;
+            if (free != given_.end())
+                take(*free, input, in);
+            else if (!(isHandle(input) && isMadeElsewhere(graph_, node_, input)) && !takeLastFrames(input, in))
+                return false;
         }
         return true;
     }
@@ -218,7 +220,8 @@ private:
 void keepSettings(const GraphNode& node, const NodeDescription& described, const Pass& next, Json& set) {
     for (const Setting& setting : described.settings) set[setting.name] = Json();
     for (const Parameter* parameter : node.pass->parameters) {
-        const bool isSet = parameter->value != parameter->initial || std::ranges::find(described.settings, parameter->name, &Setting::name) != described.settings.end();
+        const bool isSet =
+            parameter->value != parameter->initial || std::ranges::find(described.settings, parameter->name, &Setting::name) != described.settings.end();
         if (isSet && std::ranges::any_of(next.parameters, [&](const Parameter* other) { return isAlike(*parameter, *other); }))
             set[parameter->name] = writeValue(*parameter, parameter->value);
     }
@@ -349,8 +352,10 @@ Json additionPatch(const Graph& graph, const PassType& type, const std::map<std:
         if (!isWiredWhenAdded(input)) continue;
         const auto answer = answers.find(std::string(input.name()));
         const std::vector<std::string> candidates = candidatesFor(graph, input);
-        if (answer != answers.end()) pass["in"][input.name()] = answer->second;
-        else if (candidates.size() == 1) pass["in"][input.name()] = candidates.front();
+        if (answer != answers.end())
+            pass["in"][input.name()] = answer->second;
+        else if (candidates.size() == 1)
+            pass["in"][input.name()] = candidates.front();
     }
     return patch;
 }

@@ -9,10 +9,10 @@
 namespace lodestir {
 namespace {
 
-constexpr float gutter = 42;       // between columns, where edges bend
-constexpr float track = 7;         // between lines that run side by side
+constexpr float gutter = 42;  // between columns, where edges bend
+constexpr float track = 7;    // between lines that run side by side
 constexpr float boxGap = 16, trunkHeight = 6, trunkGap = 5;
-constexpr int sweeps = 24;         // more change nothing in any graph that is shipped
+constexpr int sweeps = 24;  // over the columns, there and back
 
 class Layout {
 public:
@@ -30,7 +30,7 @@ public:
 private:
     /// What takes a place in a column: a box, or a trunk that passes.
     struct Item {
-        int box = -1;       // -1: a trunk
+        int box = -1;  // -1: a trunk
         float height = trunkHeight, y = 0;
         float wanted = 0;
     };
@@ -66,7 +66,8 @@ private:
             const bool isLed = std::ranges::any_of(range(edges_.size()), [&](std::size_t e) { return !back_[e] && edges_[e].to == int(n); });
             int first = -1;
             for (std::size_t e = 0; e < edges_.size(); ++e)
-                if (!back_[e] && edges_[e].from == int(n) && (first < 0 || columnOf_[std::size_t(edges_[e].to)] < first)) first = columnOf_[std::size_t(edges_[e].to)];
+                if (!back_[e] && edges_[e].from == int(n) && (first < 0 || columnOf_[std::size_t(edges_[e].to)] < first))
+                    first = columnOf_[std::size_t(edges_[e].to)];
             if (!isLed && first > 0) columnOf_[n] = first - 1;
         }
         columns_.resize(count == 0 ? 0 : std::size_t(std::ranges::max(columnOf_)) + 1);
@@ -238,8 +239,8 @@ private:
     /// The lines of last frame's values: one lane an output below all boxes, a track down beside its column, one up beside each consumer's.
     struct Lane {
         int from, output, span = 0;
-        int down = 0;             // number of its track beside the producer's column
-        std::map<int, int> up;    // and beside consumers' columns
+        int down = 0;           // number of its track beside the producer's column
+        std::map<int, int> up;  // and beside consumers' columns
     };
     void findTracks() {
         for (std::size_t e = 0; e < edges_.size(); ++e) {
@@ -287,14 +288,14 @@ private:
 
     std::span<const LayoutBox> boxes_;
     std::span<const LayoutEdge> edges_;
-    std::vector<bool> back_;                            // of each edge
+    std::vector<bool> back_;  // of each edge
     std::vector<int> columnOf_, columnOfItem_;
-    std::vector<Item> items_;                           // boxes first, in their order
+    std::vector<Item> items_;  // boxes first, in their order
     std::vector<Link> links_;
-    std::vector<std::vector<int>> columns_;             // items from top to bottom
+    std::vector<std::vector<int>> columns_;                   // items from top to bottom
     std::map<std::pair<int, int>, std::vector<int>> trunks_;  // items of each output, from the column after it
     std::vector<Lane> lanes_;
-    std::vector<int> tracksIn_, tracksOut_;             // left and right of each column
+    std::vector<int> tracksIn_, tracksOut_;  // left and right of each column
     std::vector<float> lefts_, rights_;
     float lanesTop_ = 0;
     GraphLayout result_;

@@ -157,8 +157,9 @@ void GraphPanel::interact(const Rectangle& canvas) {
     ImGui::InvisibleButton("##canvas", {float(canvas.size.x), float(canvas.size.y)});
     mark_("graph");
     const bool pulled = ImGui::IsItemActive();
-    const bool inside = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) && ImGui::IsMouseHoveringRect(
-        {float(canvas.corner.x), float(canvas.corner.y)}, {float(canvas.corner.x + canvas.size.x), float(canvas.corner.y + canvas.size.y)});
+    const bool inside = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+                        ImGui::IsMouseHoveringRect({float(canvas.corner.x), float(canvas.corner.y)},
+                                                   {float(canvas.corner.x + canvas.size.x), float(canvas.corner.y + canvas.size.y)});
     hoveredPass_ = inside ? passAt(io.MousePos) : -1;
 
     constexpr float still = 16;  // square pixels: a click, not a drag

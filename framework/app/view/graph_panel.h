@@ -71,17 +71,17 @@ private:
     Show show_;
     bool open_ = false, asked_ = false;
     std::shared_ptr<const GraphInfo> graph_;
-    std::string shown_;                    ///< the port that the picture is of
+    std::string shown_;  ///< the port that the picture is of
     std::vector<LayoutBox> boxes_;
     GraphLayout layout_;
-    float zoom_ = 0, zoomed_ = 1;          ///< wanted, 0: as fits; pixels of the window for one of the layout
-    glm::vec2 centre_{0}, origin_{0};      ///< of the layout in the canvas' middle; of the layout on the screen
-    int panning_ = -1;                     ///< button that moves it
+    float zoom_ = 0, zoomed_ = 1;      ///< wanted, 0: as fits; pixels of the window for one of the layout
+    glm::vec2 centre_{0}, origin_{0};  ///< of the layout in the canvas' middle; of the layout on the screen
+    int panning_ = -1;                 ///< button that moves it
     std::optional<Spot> hovered_, drag_;
     int hoveredPass_ = -1;
-    std::string menuPass_;                 ///< whose menu is open
-    std::array<char, 64> filter_{};        ///< of the types that can be added
-    std::optional<std::size_t> adding_;    ///< the type whose questions are asked
+    std::string menuPass_;               ///< whose menu is open
+    std::array<char, 64> filter_{};      ///< of the types that can be added
+    std::optional<std::size_t> adding_;  ///< the type whose questions are asked
     std::map<std::string, std::string> answers_;
 };
 

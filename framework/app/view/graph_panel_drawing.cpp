@@ -93,8 +93,10 @@ void GraphPanel::drawEdge(ImDrawList& list, std::size_t e, bool bright) const {
     for (const glm::vec2 point : layout_.routes[e].points) points.push_back(screen(point));
     if (layout_.routes[e].back) return addDashes(list, rounded(points, 7 * zoomed_), ink, width, 5 * std::max(zoomed_, 0.6f));
     for (std::size_t i = 1; i < points.size(); ++i) {
-        if (i % 2 == 1) addCurve(list, points[i - 1], points[i], ink, width);
-        else list.AddLine(points[i - 1], points[i], ink, width);
+        if (i % 2 == 1)
+            addCurve(list, points[i - 1], points[i], ink, width);
+        else
+            list.AddLine(points[i - 1], points[i], ink, width);
     }
 }
 
@@ -106,8 +108,8 @@ void GraphPanel::drawBox(ImDrawList& list, const ViewStatus& status, int pass) c
     const ImVec2 low = screen(box.corner), high = screen(box.corner + box.size);
     const float z = zoomed_, left = low.x + boxPadding * z;
     list.AddRectFilled(low, high, color(idle ? idleBack : boxBack), 5 * z);
-    list.AddRect(low, high, color(isShown ? palette().accent : hoveredPass_ == pass ? palette().quiet : boxEdge, isShown ? 0.9f : 1), 5 * z, 0,
-                 isShown ? 1.6f : 1.0f);
+    const ImVec4 rim = hoveredPass_ == pass ? palette().quiet : boxEdge;
+    list.AddRect(low, high, color(isShown ? palette().accent : rim, isShown ? 0.9f : 1), 5 * z, 0, isShown ? 1.6f : 1.0f);
     const ImU32 quiet = color(palette().quiet, idle ? 0.75f : 1);
     addText(list, {left, low.y + 6 * z}, nameSize * z, idle ? quiet : ImGui::GetColorU32(ImGuiCol_Text), info.name);
     addText(list, {left, low.y + 24 * z}, smallSize * z, quiet, info.type);
@@ -146,7 +148,8 @@ void GraphPanel::drawPort(ImDrawList& list, const Spot& spot) const {
         const Rectangle row = rowOf(spot);
         const GraphLayout::Box& box = layout_.boxes[std::size_t(spot.pass)];
         const float left = screen(box.corner).x, right = screen(box.corner + box.size).x, top = float(row.corner.y);
-        list.AddRectFilled({left + 1, top}, {right - 1, top + rowHeight * z}, color(fits || isShown ? palette().accent : ImVec4(1, 1, 1, 1), fits ? 0.22f : 0.1f));
+        list.AddRectFilled({left + 1, top}, {right - 1, top + rowHeight * z},
+                           color(fits || isShown ? palette().accent : ImVec4(1, 1, 1, 1), fits ? 0.22f : 0.1f));
     }
     const ImU32 ink = color(isShown ? palette().accent : colorOf(info.kind), dim ? 0.5f : 1);
     if (unwired && !fits) {
@@ -165,8 +168,10 @@ void GraphPanel::drawDrag(ImDrawList& list) const {
     const std::optional<Spot> at = spotAt(ImGui::GetIO().MousePos);
     const ImVec2 dot = dotOf(*drag_), end = at && takesDrag(*at) ? dotOf(*at) : ImGui::GetIO().MousePos;
     const ImU32 ink = color(palette().accent);
-    if (drag_->isInput) addCurve(list, end, dot, ink, 2);
-    else addCurve(list, dot, end, ink, 2);
+    if (drag_->isInput)
+        addCurve(list, end, dot, ink, 2);
+    else
+        addCurve(list, dot, end, ink, 2);
     list.AddCircleFilled(end, 4, ink);
 }
 

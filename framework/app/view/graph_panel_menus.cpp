@@ -128,8 +128,10 @@ void GraphPanel::drawAddMenu() {
         if (ImGui::Selectable(type.name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
             answers_.clear();
             for (const Question& question : type.questions) answers_[question.input] = question.answers.back();
-            if (type.questions.empty()) add(type);
-            else adding_ = t;
+            if (type.questions.empty())
+                add(type);
+            else
+                adding_ = t;
         }
         mark_("add: " + type.name);
         tip(type.doc);

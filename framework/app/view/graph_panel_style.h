@@ -14,7 +14,7 @@ inline constexpr float nameSize = 15, portSize = 13, smallSize = 12, timeSize = 
 inline constexpr float headHeight = 59, rowHeight = 17, footHeight = 6, boxPadding = 11, leastWidth = 126, dotRadius = 3.6f;
 inline constexpr glm::vec2 canvasMargin{22, 14};
 
-inline const ImVec4 panelBack{0.055f, 0.06f, 0.07f, 0.86f}, boxBack{0.135f, 0.145f, 0.163f, 0.97f}, idleBack{0.1f, 0.106f, 0.118f, 0.94f},
+inline const ImVec4 panelBack{0.055f, 0.06f, 0.07f, 0.72f}, boxBack{0.135f, 0.145f, 0.163f, 0.97f}, idleBack{0.1f, 0.106f, 0.118f, 0.94f},
     boxEdge{0.25f, 0.265f, 0.29f, 1};
 
 float textWidth(const std::string& text, float size);

@@ -461,6 +461,7 @@ bool ViewSession::become(const HandMade& wanted) {
     const bool otherGraph = !session_ || broken_ || wanted.variant != before.variant || wanted.patches.size() != before.patches.size();
     options_.changes.variant = wanted.variant;
     options_.changes.patches = wanted.patches;
+    options_.changes.set = wanted.settings;
     set_ = wanted.set;
     if (!otherGraph && !apply(set_)) {
         changedByHand(true);
@@ -470,6 +471,7 @@ bool ViewSession::become(const HandMade& wanted) {
     if (build()) return true;
     options_.changes.variant = before.variant;
     options_.changes.patches = before.patches;
+    options_.changes.set = before.settings;
     set_ = before.set;
     given_ = given;
     if (session_) {
@@ -496,6 +498,7 @@ void ViewSession::edit(const std::string& what, const std::string& replaced, con
     const HandMade before = handMade();
     HandMade wanted = before;
     std::erase_if(wanted.set, [&](const auto& set) { return set.first.starts_with(replaced + "."); });
+    std::erase_if(wanted.settings, [&](const Setting& setting) { return setting.name.starts_with(replaced + "."); });
     const bool done = attempt([&] { wanted.patches.push_back(patch(session_->graph())); }) && become(wanted);
     if (done) history_.did(what, before);
     else status_.refused = what;
@@ -529,16 +532,18 @@ void ViewSession::wireInput(const std::string& pass, const std::string& input, c
 void ViewSession::undo() {
     if (history_.undoable().empty()) return;
     const HandMade before = handMade(), wanted = history_.beforeLast();
+    const auto described = status_.graph;
     if (become(wanted)) history_.undid(before);
-    describe();  // parameters that were set without another session
+    if (status_.graph == described) describe();  // parameters were set without another session
     tell();
 }
 
 void ViewSession::redo() {
     if (history_.redoable().empty()) return;
     const HandMade before = handMade(), wanted = history_.afterNext();
+    const auto described = status_.graph;
     if (become(wanted)) history_.redid(before);
-    describe();
+    if (status_.graph == described) describe();
     tell();
 }
 

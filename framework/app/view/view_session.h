@@ -53,7 +53,7 @@ public:
 
 private:
     void adjust(Graph& graph);
-    HandMade handMade() const { return {options_.changes.variant, options_.changes.patches, set_}; }
+    HandMade handMade() const { return {options_.changes.variant, options_.changes.patches, options_.changes.set, set_}; }
     bool apply(const std::map<std::string, Value>& set);
     bool become(const HandMade& wanted);
     void edit(const std::string& what, const std::string& replaced, const std::function<Json(const Graph&)>& patch);
