@@ -30,20 +30,9 @@ protected:
     /// From one widget to another; empty: to where nothing is.
     static void drag(Viewer& viewer, const std::string& from, const std::string& to) {
         viewer.pointAt(from);
-        std::this_thread::sleep_for(300ms);
         viewer.press();
-        std::this_thread::sleep_for(300ms);  // a hand rests before it drags
-        if (to.empty()) {
-            const OrderedJson graph = viewer.find("graph");
-            viewer.point(graph[2].get<double>() - 12, graph[1].get<double>() + 12);
-            std::this_thread::sleep_for(200ms);
-            viewer.point(graph[2].get<double>() - 10, graph[1].get<double>() + 10);
-        } else {
-            viewer.pointAt(to, 0.4);
-            std::this_thread::sleep_for(200ms);
-            viewer.pointAt(to);
-        }
-        std::this_thread::sleep_for(300ms);
+        if (to.empty()) viewer.pointAt("graph", 0.99);
+        else viewer.pointAt(to);
         viewer.release();
     }
     static auto did(const std::string& what) {

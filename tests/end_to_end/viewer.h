@@ -91,14 +91,25 @@ public:
     void pointAt(const std::string& widget, double across = 0.5) {
         const OrderedJson box = find(widget);
         ASSERT_FALSE(box.is_null());
-        point(box[0].get<double>() + across * (box[2].get<double>() - box[0].get<double>()), 0.5 * (box[1].get<double>() + box[3].get<double>()));
+        seen([&] {
+            point(box[0].get<double>() + across * (box[2].get<double>() - box[0].get<double>()), 0.5 * (box[1].get<double>() + box[3].get<double>()));
+        });
     }
-    void press(const std::string& button = "1") const { display_.xdotool({"mousedown", button}); }
-    void release(const std::string& button = "1") const { display_.xdotool({"mouseup", button}); }
+    /// Something that the mouse does, once it is seen: a busy machine draws the window rarely, and takes what comes in between for one movement.
+    void seen(const std::function<void()>& act) {
+        const int drawn = report()["drawn"].get<int>();
+        act();
+        await("the window drawn", [&](const OrderedJson& r) { return r["drawn"].get<int>() >= drawn + 2; });
+    }
+    void press(const std::string& button = "1") {
+        seen([&] { display_.xdotool({"mousedown", button}); });
+    }
+    void release(const std::string& button = "1") {
+        seen([&] { display_.xdotool({"mouseup", button}); });
+    }
     void click(const std::string& widget, double across = 0.5, const std::string& button = "1") {
         pointAt(widget, across);
         press(button);
-        std::this_thread::sleep_for(150ms);  // a press that is seen as held
         release(button);
     }
     /// The middle of the picture, moved by part of its size.
