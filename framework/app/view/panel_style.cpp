@@ -3,6 +3,8 @@
 
 #include <framework/app/view/theme.h>
 
+#include <fmt/format.h>
+
 namespace lodestir {
 
 void quietText(const std::string& text) {
@@ -26,6 +28,8 @@ void heading(const char* text) {
     ImGui::Dummy({0, 2});
     quietText(text);
 }
+
+std::string timeText(double milliseconds) { return fmt::format("{:.{}f}", milliseconds, milliseconds < 10 ? 2 : milliseconds < 100 ? 1 : 0); }
 
 void rightText(const std::string& text) {
     const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;

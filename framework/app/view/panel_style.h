@@ -17,6 +17,8 @@ void quietText(const std::string& text);
 /// Shown while the pointer is over the last widget.
 void tip(const std::string& text);
 void heading(const char* text);
+/// Milliseconds, with three digits that count.
+std::string timeText(double milliseconds);
 /// Text that ends at the right edge of the cell or window.
 void rightText(const std::string& text);
 

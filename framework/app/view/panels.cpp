@@ -16,7 +16,13 @@
 namespace lodestir {
 
 Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, bool wantsStatistics)
-    : renderer_(renderer), window_(window), viewport_(viewport), comparison_(comparison), out_(std::move(out)), wantsStatistics_(wantsStatistics) {}
+    : renderer_(renderer),
+      window_(window),
+      viewport_(viewport),
+      comparison_(comparison),
+      graphPanel_(renderer, [this](const std::string& name) { mark(name); }, [this](const std::string& port) { showPort(port); }),
+      out_(std::move(out)),
+      wantsStatistics_(wantsStatistics) {}
 
 Rectangle Panels::pictureArea(glm::uvec2 window) const {
     return {.corner = {int(panelWidth), 0}, .size = glm::max(glm::ivec2(window) - glm::ivec2(int(panelWidth), int(stripHeight)), glm::ivec2(0))};
@@ -42,6 +48,11 @@ TexelLayout Panels::layout() const {
     const auto shown = shownOf_.find(port_);
     if (port == graph_->ports.end() || port->fields.empty() || shown == shownOf_.end()) return {};
     return port->fields[std::min(shown->second.field, port->fields.size() - 1)].layout;
+}
+
+void Panels::showPort(const std::string& port) {
+    port_ = port;
+    sendShow();
 }
 
 void Panels::sendShow() {
@@ -113,6 +124,7 @@ void Panels::draw(const ViewStatus& status) {
     ImGui::End();
     ImGui::PopStyleColor();
 
+    graphPanel_.draw(status, port_, pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)}));
     drawProblems(status);
     drawHelp();
 
@@ -125,9 +137,14 @@ void Panels::draw(const ViewStatus& status) {
 }
 
 void Panels::keys(const ViewStatus& status) {
-    const std::vector<int> down = window_.takeKeys();
+    const std::vector<Window::Key> down = window_.takeKeys();
     if (ImGui::GetIO().WantTextInput) return;
-    const auto pressed = [&](int key) { return std::ranges::find(down, key) != down.end(); };
+    const auto pressed = [&](int key, bool control = false, bool shift = false) {
+        return std::ranges::any_of(down, [&](const Window::Key& k) { return k.key == key && k.control == control && (!control || k.shift == shift); });
+    };
+    if (pressed(GLFW_KEY_Z, true)) send([](ViewSession& s) { s.undo(); });
+    if (pressed(GLFW_KEY_Z, true, true) || pressed(GLFW_KEY_Y, true)) send([](ViewSession& s) { s.redo(); });
+    if (pressed(GLFW_KEY_G)) graphPanel_.toggle();
     if (pressed(GLFW_KEY_SPACE)) send([paused = !paused_](ViewSession& s) { s.pause(paused); });
     if (pressed(GLFW_KEY_N)) send([](ViewSession& s) { s.step(); });
     if (pressed(GLFW_KEY_R)) send([](ViewSession& s) { s.resetHistory(); });
@@ -136,7 +153,7 @@ void Panels::keys(const ViewStatus& status) {
         moveCamera(framed(viewport_.camera().value_or(status.camera.key), graph_->bounds, float(graph_->size.x) / float(graph_->size.y)));
     if (pressed(GLFW_KEY_A)) keepPicture(status);
     if (pressed(GLFW_KEY_B)) comparison_.turn();
-    if (pressed(GLFW_KEY_0)) viewport_.fit();
+    if (pressed(GLFW_KEY_0)) graphPanel_.isOpen() ? graphPanel_.fit() : viewport_.fit();
     if (pressed(GLFW_KEY_1)) viewport_.zoomTo(1);
     if (pressed(GLFW_KEY_2)) viewport_.zoomTo(2);
     if (pressed(GLFW_KEY_4)) viewport_.zoomTo(4);
@@ -144,7 +161,10 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_S)) send([out = out_](ViewSession& s) { s.save(out); });
     if (pressed(GLFW_KEY_T)) send([out = out_](ViewSession& s) { s.saveTimes(out); });
     if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) help_ = !help_;
-    if (pressed(GLFW_KEY_ESCAPE)) help_ = false;
+    if (pressed(GLFW_KEY_ESCAPE)) {
+        help_ = false;
+        if (!status.refused.empty()) send([](ViewSession& s) { s.dismiss(); });
+    }
     if (pressed(GLFW_KEY_F12)) screenshot_ = true;
 }
 
@@ -172,12 +192,14 @@ void Panels::drawGraph(const ViewStatus& status) {
         }
     }
     ImGui::Dummy({0, 1});
-    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
+    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 4 * space) / 5;
     if (button("pause", paused_ ? "Resume" : "Pause", "Space", width)) send([paused = !paused_](ViewSession& s) { s.pause(paused); });
     ImGui::SameLine();
     if (button("step", "Step", "one frame while paused: N", width)) send([](ViewSession& s) { s.step(); });
     ImGui::SameLine();
     if (button("reset history", "Restart", "history and accumulation start again: R", width)) send([](ViewSession& s) { s.resetHistory(); });
+    ImGui::SameLine();
+    if (button("graph panel", "Graph", "passes and edges, to be edited: G", width)) graphPanel_.toggle();
     ImGui::SameLine();
     if (button("help", "Help", "keys and mouse: H", width)) help_ = !help_;
     if (!status.busy.empty() && !graph_) quietText(status.busy + " ...");

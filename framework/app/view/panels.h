@@ -2,6 +2,7 @@
 // The panels of the viewer: what runs, what is shown, camera, parameters of all passes, times and rays. Made from the declarations.
 #pragma once
 #include <framework/app/view/comparison.h>
+#include <framework/app/view/graph_panel.h>
 #include <framework/app/view/render_thread.h>
 #include <framework/app/view/viewport.h>
 #include <framework/app/view/window.h>
@@ -57,6 +58,7 @@ private:
 
     bool button(const char* name, const char* label, const char* tip, float width = 0);
     void mark(const std::string& name);
+    void showPort(const std::string& port);
     void sendShow();
     void keepPicture(const ViewStatus& status);
     std::string whatIsShown(const ViewStatus& status) const;
@@ -67,6 +69,7 @@ private:
     Window& window_;
     Viewport& viewport_;
     Comparison& comparison_;
+    GraphPanel graphPanel_;
     Path out_;
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

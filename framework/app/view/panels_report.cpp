@@ -13,8 +13,6 @@
 namespace lodestir {
 namespace {
 
-std::string timeText(double milliseconds) { return fmt::format("{:.{}f}", milliseconds, milliseconds < 10 ? 2 : milliseconds < 100 ? 1 : 0); }
-
 /// Beside the pointer: the last frames, and how far they lie apart.
 void drawHistory(const PassTime& pass) {
     if (pass.history.empty()) return;
@@ -32,16 +30,11 @@ void drawHistory(const PassTime& pass) {
 
 void Panels::drawTimes(const ViewStatus& status) {
     double most = 0, all = 0, rays = 0;
-    const auto raysOf = [](const PassTime& pass) {
-        double sum = 0;
-        for (std::uint32_t purpose = 0; purpose < RAYS_STEPS; ++purpose) sum += double(pass.rays[purpose]);
-        return sum;
-    };
     for (const PassTime& pass : status.passes) {
         if (pass.setup || !pass.ran) continue;
         most = std::max(most, pass.milliseconds);
         all += pass.milliseconds;
-        rays += raysOf(pass);
+        rays += pass.allRays();
     }
     constexpr ImGuiTableFlags flags = ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_NoPadOuterX;
     if (!ImGui::BeginTable("passes", 5, flags)) return;
@@ -82,7 +75,7 @@ void Panels::drawTimes(const ViewStatus& status) {
             ImGui::GetWindowDrawList()->AddRectFilled({corner.x, top}, {corner.x + std::max(length, 2.0f), bottom}, ImGui::GetColorU32(palette().bar), 2);
         }
         number(2, pass.ran ? timeText(pass.milliseconds) : "");
-        const double traced = pass.ran ? raysOf(pass) : 0;
+        const double traced = pass.ran ? pass.allRays() : 0;
         number(3, traced > 0 ? countText(traced) : "");
         number(4, traced > 0 && pass.milliseconds > 0 ? countText(1000 * traced / pass.milliseconds) : "");
     }
@@ -121,7 +114,8 @@ void Panels::drawProblems(const ViewStatus& status) {
     if (!status.busy.empty() && graph_) {
         ImGui::SetNextWindowPos({float(area.corner.x) + 0.5f * float(area.size.x), float(area.size.y) - 14}, 0, {0.5f, 1});
         ImGui::SetNextWindowBgAlpha(0.85f);
-        ImGui::Begin("busy", nullptr, fixedWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+        ImGui::Begin("busy", nullptr, (fixedWindow & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoFocusOnAppearing |
+                                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
         ImGui::TextUnformatted((status.busy + " ...").c_str());
         ImGui::End();
     }
@@ -132,9 +126,14 @@ void Panels::drawProblems(const ViewStatus& status) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, palette().badBack);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 5);
     ImGui::Begin("problems", nullptr, (fixedWindow & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::TextColored(
-        palette().bad, "%s",
-        graph_ ? "What was saved last doesn't work; what worked before goes on." : "This doesn't work yet; it is read again when a file changes.");
+    const std::string what = !status.refused.empty() ? "\"" + status.refused + "\" doesn't work; nothing was changed."
+                             : graph_                ? "What was saved last doesn't work; what worked before goes on."
+                                                     : "This doesn't work yet; it is read again when a file changes.";
+    ImGui::TextColored(palette().bad, "%s", what.c_str());
+    if (!status.refused.empty()) {
+        ImGui::SameLine(width - 76);
+        if (button("dismiss", "Close", "Esc")) send([](ViewSession& s) { s.dismiss(); });
+    }
     ImGui::PushFont(figureFont());
     ImGui::PushTextWrapPos(width - 14);
     for (const std::string& problem : status.problems) ImGui::TextUnformatted(problem.c_str());
@@ -146,11 +145,11 @@ void Panels::drawProblems(const ViewStatus& status) {
 }
 
 void Panels::drawProbe(const ViewStatus& status, const std::optional<PicturePainter::Probe>& probe, const Rectangle& area) {
-    if (graph_) comparison_.draw(area, whatIsShown(status));
+    if (graph_ && !graphPanel_.isOpen()) comparison_.draw(area, whatIsShown(status));
     std::string text = status.picture.texels ? port_ : "";
     if (!status.picture.texels && graph_) text = port_ + ": nothing to look at";
     if (probe && viewport_.pixelUnderPointer().x >= 0) text += "   " + probeText(probe->pixel, probe->bits, probe->layout);
-    if (text.empty()) return;
+    if (text.empty() || graphPanel_.isOpen()) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImGui::PushFont(figureFont());
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()), corner{float(area.corner.x) + 10, float(area.size.y) - size.y - 12};
@@ -171,6 +170,8 @@ void Panels::drawHelp() {
                                                {"R", "restart history and accumulation"},
                                                {"A", "keep what is shown, to compare; let it go"},
                                                {"B", "A | B with a line to drag, A, B, A - B"},
+                                               {"G", "the graph: its passes and edges, to be edited"},
+                                               {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},
                                                {"S", "save what is shown (EXR, PNG)"},
                                                {"T", "save the last frames' times (CSV, Perfetto)"},
                                                {"F12", "picture of the whole window"},

@@ -32,8 +32,7 @@ void Panels::drawShown() {
         for (const PortInfo& other : graph_->ports) {
             ImGui::PushStyleColor(ImGuiCol_Text, other.runs ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : palette().quiet);
             if (ImGui::Selectable(fmt::format("{:<28}", other.name).c_str(), other.name == port_, other.fields.empty() ? ImGuiSelectableFlags_Disabled : 0)) {
-                port_ = other.name;
-                sendShow();
+                showPort(other.name);
             }
             mark("port: " + other.name);
             ImGui::PopStyleColor();

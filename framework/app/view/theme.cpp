@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/view/theme.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <initializer_list>
 
 namespace lodestir {
 namespace {
+
+constexpr float smallestSize = 8;  // of text that can be read
 
 /// The first of the fonts that this machine has; Dear ImGui's own where it has none.
 void addFont(std::initializer_list<const char*> files, float size) {
@@ -24,18 +28,26 @@ Palette palette() { return {}; }
 std::array<float, 3> backgroundColor() { return {0.065f, 0.07f, 0.08f}; }
 
 ImFont* plainFont() { return ImGui::GetIO().Fonts->Fonts[0]; }
+ImFont* plainFont(float size) {
+    const int number = int(textSize) - int(std::ceil(size));
+    return number <= 0 ? plainFont() : ImGui::GetIO().Fonts->Fonts[1 + std::min(number, int(textSize - smallestSize))];
+}
 ImFont* figureFont() { return ImGui::GetIO().Fonts->Fonts[1]; }
 
 void setTheme() {
-    addFont(
-        {"/usr/share/fonts/opentype/inter/Inter-Regular.otf", "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
-         "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/noto/NotoSans-Regular.ttf", "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
-         "/usr/share/fonts/TTF/DejaVuSans.ttf", "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"},
-        textSize);
+    const auto addPlain = [](float size) {
+        addFont({"/usr/share/fonts/opentype/inter/Inter-Regular.otf", "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
+                 "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/noto/NotoSans-Regular.ttf",
+                 "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
+                 "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"},
+                size);
+    };
+    addPlain(textSize);
     addFont({"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
              "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf", "/usr/share/fonts/noto/NotoSansMono-Regular.ttf",
              "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf"},
             textSize - 1);
+    for (float size = textSize - 1; size >= smallestSize; --size) addPlain(size);
 
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();

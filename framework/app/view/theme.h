@@ -17,9 +17,11 @@ inline constexpr float textSize = 15;  ///< pixels
 
 Palette palette();
 std::array<float, 3> backgroundColor();  ///< behind the picture, as the screen gets it
-/// Sets style and fonts of the current Dear ImGui context. Font 0 is for text, font 1 has figures of equal width.
+/// Sets style and fonts of the current Dear ImGui context. Font 0 is for text, font 1 has figures of equal width; then come smaller ones
+/// for text.
 void setTheme();
 ImFont* plainFont();
+ImFont* plainFont(float size);  ///< drawn for about that many pixels, so that it stays sharp
 ImFont* figureFont();
 
 }  // namespace lodestir

@@ -49,20 +49,26 @@ void collectFields(const std::vector<StructField>& fields, const std::string& pr
 ViewSession::ViewSession(SessionOptions options, std::shared_ptr<const gpu::Device> device, Publish publish)
     : options_(std::move(options)), device_(std::move(device)), publish_(std::move(publish)) {}
 
-void ViewSession::tell() { publish_(status_); }
+void ViewSession::tell() {
+    status_.undo = history_.undoable();
+    status_.redo = history_.redoable();
+    publish_(status_);
+}
 
 /// Runs something that may find the user's files wrong; what it finds is shown, and nothing else happens.
-void ViewSession::attempt(const std::function<void()>& work) {
+bool ViewSession::attempt(const std::function<void()>& work) {
+    std::vector<std::string> problems;
     try {
         work();
-        status_.problems.clear();
     } catch (const Error& error) {
-        status_.problems.clear();
         for (const Problem& problem : error.problems()) {
-            status_.problems.push_back(problem.text());
+            problems.push_back(problem.text());
             log::warn("{}", problem.text());
         }
     }
+    status_.problems = std::move(problems);
+    status_.refused.clear();
+    return status_.problems.empty();
 }
 
 /// What was set by hand goes over what the file says, unless the file says something new about it.
@@ -82,11 +88,12 @@ void ViewSession::adjust(Graph& graph) {
     given_ = std::move(given);
 }
 
-void ViewSession::build() {
+bool ViewSession::build() {
     status_.busy = "building";
     tell();
-    const auto given = given_;
-    attempt([&] {
+    const auto given = given_, set = set_;
+    const std::string shown = shown_;
+    const bool built = attempt([&] {
         try {
             SessionParts parts{.device = device_,
                                .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr,
@@ -128,12 +135,15 @@ void ViewSession::build() {
             took(report, millisecondsSince(start));
         } catch (const Error&) {
             given_ = given;
+            set_ = set;
+            shown_ = shown;
             throw;
         }
     });
     status_.busy.clear();
     watchFiles();
     tell();
+    return built;
 }
 
 bool ViewSession::wantsFrame() const { return session_ && !broken_ && (!status_.paused || stepping_); }
@@ -260,7 +270,9 @@ void ViewSession::describe() {
     info->bounds = session_->scene().bounds();
     for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
         const GraphNode& node = graph.nodes[n];
-        PassInfo pass{.name = node.name, .type = node.type, .doc = node.plugin->doc, .off = node.off, .parameters = {}, .given = {}};
+        PassInfo pass{.name = node.name, .type = node.type, .doc = node.plugin->doc, .off = node.off};
+        pass.canBeOff = !node.pass->bypasses.empty();
+        pass.isScene = node.type == "scene";
         pass.culled = session_->runner().plan().stepOf(int(n)) < 0;
         for (const Parameter* parameter : node.pass->parameters) {
             pass.parameters.push_back(*parameter);
@@ -274,7 +286,47 @@ void ViewSession::describe() {
             info->ports.push_back(describePort({int(n), int(p), false}));
         }
     }
+    describeWires(*info);
+    describeEdits(*info);
     status_.graph = std::move(info);
+}
+
+void ViewSession::describeWires(GraphInfo& info) const {
+    const Graph& graph = session_->graph();
+    const auto describeWire = [](const Wire& wire) {
+        const auto kind = wire.bundle ? WireInfo::Kind::buffer : WireInfo::Kind(wire.port().type.kind);
+        return WireInfo{std::string(wire.name()), wire.typeText(), std::string(wire.doc()), kind, wire.port().optional, wire.first, {}};
+    };
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+        for (const Wire& wire : wiresOf(*graph.nodes[n].pass, isMade)) {
+            WireInfo output = describeWire(wire);
+            for (int i = 0; i < wire.count; ++i) output.ports.push_back(graph.nameOf({int(n), wire.first + i}));
+            info.passes[n].outputs.push_back(std::move(output));
+        }
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+        for (const Wire& wire : wiresOf(*graph.nodes[n].pass, [](const Port& port) { return port.isInput(); })) {
+            info.passes[n].inputs.push_back(describeWire(wire));
+            const std::optional<Feed> feed = feedOf(graph, int(n), wire);
+            if (!feed) continue;
+            const Pass& maker = *graph.nodes[std::size_t(feed->node)].pass;
+            const std::vector<Wire> outputs = wiresOf(maker, isMade);
+            const auto output = std::ranges::find(outputs, wireOf(maker, feed->output.first).first, &Wire::first);
+            info.edges.push_back(
+                {feed->node, int(output - outputs.begin()), int(n), int(info.passes[n].inputs.size()) - 1, feed->prev, feed->written});
+        }
+}
+
+void ViewSession::describeEdits(GraphInfo& info) const {
+    const Graph& graph = session_->graph();
+    for (const PassType& type : types_) info.edits.types.push_back({type.type, type.doc, questionsOf(graph, type)});
+    for (std::size_t n = 0; n < graph.nodes.size() && !types_.empty(); ++n) {
+        info.edits.swaps.emplace_back();
+        for (std::size_t t = 0; t < types_.size(); ++t)
+            if (swapPatch(graph, int(n), types_[t])) info.edits.swaps.back().push_back(t);
+        info.edits.offers.emplace_back();
+        for (const Wire& input : wiresOf(*graph.nodes[n].pass, [](const Port& port) { return port.isInput(); }))
+            info.edits.offers.back().push_back(offersFor(graph, int(n), input));
+    }
 }
 
 void ViewSession::watchFiles() {
@@ -306,7 +358,10 @@ void ViewSession::reloadChanged() {
         return file.extension() != ".json" && file != std::filesystem::absolute(options_.graph) && (!session_ || file != session_->scene().file);
     };
     if (session_ && std::ranges::find(changed, session_->scene().file) != changed.end()) rereadScene_ = true;
-    if (!session_ || broken_ || !std::ranges::all_of(changed, isShader)) return build();
+    if (!session_ || broken_ || !std::ranges::all_of(changed, isShader)) {
+        build();
+        return;
+    }
 
     stale_.insert(stale_.end(), changed.begin(), changed.end());
     status_.busy = "compiling shaders";
@@ -366,30 +421,147 @@ void ViewSession::resetCamera() {
 }
 
 void ViewSession::setParameter(const std::string& name, const Value& value) {
-    if (!session_) return;
-    const std::size_t dot = name.find('.');
-    const int node = session_->graph().find(name.substr(0, dot));
-    if (node < 0) return;
-    for (Parameter* parameter : session_->graph().nodes[std::size_t(node)].pass->parameters) {
-        if (parameter->name != name.substr(dot + 1) || parameter->value == value) continue;
-        if (value == given_[name]) set_.erase(name);
-        else set_[name] = value;
-        if (parameter->constant) return build();
-        const std::set<std::string> before = graphFacts(session_->graph(), session_->scene());
-        parameter->value = value;
-        if (graphFacts(session_->graph(), session_->scene()) != before) return build();
-        changedByHand(true);
-    }
+    const auto given = given_.find(name);
+    if (!session_ || given == given_.end()) return;
+    const HandMade before = handMade();
+    HandMade wanted = before;
+    if (value == given->second) wanted.set.erase(name);
+    else wanted.set[name] = value;
+    if (wanted.set != before.set && become(wanted)) history_.did(name, before);
 }
 
 void ViewSession::setVariant(const std::string& variant) {
-    options_.changes.variant = variant.empty() ? std::nullopt : std::optional(variant);
-    build();
+    const HandMade before = handMade();
+    HandMade wanted = before;
+    wanted.variant = variant.empty() ? std::nullopt : std::optional(variant);
+    if (become(wanted)) history_.did(variant.empty() ? "the graph as written" : "variant " + variant, before);
+    tell();
+}
+
+/// Sets the parameters of the running session as they are by hand; true where it takes another session for that.
+bool ViewSession::apply(const std::map<std::string, Value>& set) {
+    bool builds = false;
+    const std::set<std::string> facts = graphFacts(session_->graph(), session_->scene());
+    for (const GraphNode& node : session_->graph().nodes)
+        for (Parameter* parameter : node.pass->parameters) {
+            const std::string name = node.name + "." + std::string(parameter->name);
+            const auto byHand = set.find(name);
+            const Value& value = byHand == set.end() ? given_[name] : byHand->second;
+            if (value == parameter->value) continue;
+            if (parameter->constant) builds = true;
+            else parameter->value = value;
+        }
+    return builds || graphFacts(session_->graph(), session_->scene()) != facts;
+}
+
+/// Makes the graph differ from its file as is wanted; false where it can't be built, and all is as it was.
+bool ViewSession::become(const HandMade& wanted) {
+    const HandMade before = handMade();
+    const auto given = given_;
+    const bool otherGraph = !session_ || broken_ || wanted.variant != before.variant || wanted.patches.size() != before.patches.size();
+    options_.changes.variant = wanted.variant;
+    options_.changes.patches = wanted.patches;
+    options_.changes.set = wanted.settings;
+    set_ = wanted.set;
+    if (!otherGraph && !apply(set_)) {
+        changedByHand(true);
+        return true;
+    }
+    if (wanted.set != before.set) given_.clear();  // it holds, whatever the other graph says
+    if (build()) return true;
+    options_.changes.variant = before.variant;
+    options_.changes.patches = before.patches;
+    options_.changes.set = before.settings;
+    set_ = before.set;
+    given_ = given;
+    if (session_) {
+        apply(set_);
+        describe();
+    }
+    return false;
 }
 
 void ViewSession::resize(glm::uvec2 size) {
     options_.changes.size = size;
     build();
+}
+
+const PassType& ViewSession::typeNamed(const std::string& type) const {
+    const auto found = std::ranges::find(types_, type, &PassType::type);
+    if (found == types_.end()) throw Error("no pass type \"" + type + "\"");
+    return *found;
+}
+
+/// `replaced`: the pass that isn't the same any more, whose parameters are the patch's matter.
+void ViewSession::edit(const std::string& what, const std::string& replaced, const std::function<Json(const Graph&)>& patch) {
+    if (!session_) return;
+    const HandMade before = handMade();
+    HandMade wanted = before;
+    std::erase_if(wanted.set, [&](const auto& set) { return set.first.starts_with(replaced + "."); });
+    std::erase_if(wanted.settings, [&](const Setting& setting) { return setting.name.starts_with(replaced + "."); });
+    const bool done = attempt([&] { wanted.patches.push_back(patch(session_->graph())); }) && become(wanted);
+    if (done) history_.did(what, before);
+    else status_.refused = what;
+    tell();
+}
+
+void ViewSession::turnPass(const std::string& pass, bool off) {
+    edit(pass + (off ? " off" : " on"), "", [&](const Graph&) { return turnPatch(pass, off); });
+}
+
+void ViewSession::removePass(const std::string& pass) {
+    edit("without " + pass, pass, [&](const Graph& graph) { return removalPatch(graph, graph.find(pass)); });
+}
+
+void ViewSession::swapPass(const std::string& pass, const std::string& type) {
+    edit(pass + " as " + type, pass, [&](const Graph& graph) {
+        const std::optional<Json> patch = swapPatch(graph, graph.find(pass), typeNamed(type));
+        if (!patch) throw Error("pass \"" + pass + "\" can't be " + type);
+        return *patch;
+    });
+}
+
+void ViewSession::addPass(const std::string& type, const std::map<std::string, std::string>& answers) {
+    edit("one more " + type, "", [&](const Graph& graph) { return additionPatch(graph, typeNamed(type), answers); });
+}
+
+void ViewSession::wireInput(const std::string& pass, const std::string& input, const std::string& from) {
+    edit(pass + "." + input + (from.empty() ? " unwired" : " from " + from), "", [&](const Graph&) { return wirePatch(pass, input, from); });
+}
+
+void ViewSession::undo() {
+    if (history_.undoable().empty()) return;
+    const HandMade before = handMade(), wanted = history_.beforeLast();
+    const auto described = status_.graph;
+    if (become(wanted)) history_.undid(before);
+    if (status_.graph == described) describe();  // parameters were set without another session
+    tell();
+}
+
+void ViewSession::redo() {
+    if (history_.redoable().empty()) return;
+    const HandMade before = handMade(), wanted = history_.afterNext();
+    const auto described = status_.graph;
+    if (become(wanted)) history_.redid(before);
+    if (status_.graph == described) describe();
+    tell();
+}
+
+void ViewSession::dismiss() {
+    if (status_.refused.empty()) return;
+    status_.refused.clear();
+    status_.problems.clear();
+    tell();
+}
+
+void ViewSession::offerEdits() {
+    if (!session_ || !types_.empty()) return;
+    Problems unloadable;  // whoever names such a type is told
+    PluginLibraries libraries(options_.renderer.passes);
+    for (const auto& [type, plugin] : libraries.all(unloadable))
+        if (type != "scene") types_.push_back(makePassType(type, *plugin));
+    describe();
+    tell();
 }
 
 void ViewSession::show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics) {
@@ -400,7 +572,10 @@ void ViewSession::show(const std::string& port, const TexelLayout& layout, std::
     statistics_ = statistics;
     if (!session_) return;
     const auto found = std::ranges::find(status_.graph->ports, port, &PortInfo::name);
-    if (other && (found == status_.graph->ports.end() || !found->runs)) return build();
+    if (other && (found == status_.graph->ports.end() || !found->runs)) {
+        build();
+        return;
+    }
     if (broken_) return;
     capture();
     tell();

@@ -2,6 +2,7 @@
 // What a viewer shows, kept running: a session whose files may change, with a camera and parameters set by hand. Used by one thread; no window.
 #pragma once
 #include <framework/app/session.h>
+#include <framework/app/view/edit_history.h>
 #include <framework/app/view/view_state.h>
 #include <framework/core/file_watch.h>
 
@@ -17,8 +18,8 @@ public:
     /// `publish` is called after each frame and whenever something else is to be told.
     ViewSession(SessionOptions options, std::shared_ptr<const gpu::Device> device, Publish publish);
 
-    /// Anew from the files; what ran before goes on until its successor has rendered a frame. Problems go to the status.
-    void build();
+    /// Anew from the files; what ran before goes on until its successor has rendered a frame. Problems go to the status, and it returns false.
+    bool build();
     void frame();                     ///< the next one
     bool wantsFrame() const;          ///< something runs, and isn't paused or broken
     void reloadChanged();             ///< looks at the files and takes over what changed
@@ -32,6 +33,18 @@ public:
     void setParameter(const std::string& name, const Value& value);  ///< "pass.parameter"
     void setVariant(const std::string& variant);                     ///< empty: none
     void resize(glm::uvec2 size);
+
+    /// Edits of the graph. One that can't be built changes nothing; the status tells why.
+    void turnPass(const std::string& pass, bool off);
+    void removePass(const std::string& pass);
+    void swapPass(const std::string& pass, const std::string& type);
+    void addPass(const std::string& type, const std::map<std::string, std::string>& answers);
+    void wireInput(const std::string& pass, const std::string& input, const std::string& from);  ///< `from` empty: nothing
+    void undo();
+    void redo();
+    void dismiss();     ///< what was told of an edit is read
+    void offerEdits();  ///< from now on the status says what edits there are, which takes all libraries of passes
+
     /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
     void save(const Path& folder);       ///< EXR and PNG of the shown image, .npy of a shown buffer
@@ -40,10 +53,17 @@ public:
 
 private:
     void adjust(Graph& graph);
-    void attempt(const std::function<void()>& work);
+    HandMade handMade() const { return {options_.changes.variant, options_.changes.patches, options_.changes.set, set_}; }
+    bool apply(const std::map<std::string, Value>& set);
+    bool become(const HandMade& wanted);
+    void edit(const std::string& what, const std::string& replaced, const std::function<Json(const Graph&)>& patch);
+    const PassType& typeNamed(const std::string& type) const;
+    bool attempt(const std::function<void()>& work);
     void took(const FrameReport& report, double wallMilliseconds);
     void capture();
     void describe();
+    void describeWires(GraphInfo& info) const;
+    void describeEdits(GraphInfo& info) const;
     void watchFiles();
     void changedByHand(bool restarts);
     void tell();
@@ -62,6 +82,8 @@ private:
     std::string shown_;
     TexelLayout layout_;
     std::uint32_t pick_ = 0;
+    EditHistory history_;
+    std::vector<PassType> types_;              ///< all, once edits are offered
     bool statistics_ = false, broken_ = false, stepping_ = false, rereadScene_ = false;
     std::uint64_t pictures_ = 0;
     std::vector<FrameReport> reports_;         ///< of the session's last frames

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the renderer of a viewer tells its window: plain values, handed over whole, so that neither thread touches what the other works on.
 #pragma once
+#include <framework/app/view/graph_edit.h>
 #include <framework/app/view/texel_values.h>
 #include <framework/gpu/buffer.h>
 #include <framework/graph/graph.h>
@@ -30,11 +31,41 @@ struct PortInfo {
     std::vector<PortField> fields;
 };
 
+/// What one name of a pass wires: a port, or a bundle of them.
+struct WireInfo {
+    enum class Kind { image, buffer, handle };
+    std::string name, type, doc;
+    Kind kind = Kind::image;
+    bool optional = false;
+    int port = -1;                   ///< its number in the pass, or that of the bundle's first
+    std::vector<std::string> ports;  ///< of an output: the PortInfos that show it
+};
+
+/// An edge of the graph, by numbers of passes and of their inputs and outputs.
+struct EdgeInfo {
+    int from = -1, output = -1, to = -1, input = -1;
+    bool prev = false;
+    bool written = false;  ///< false: the graph binds it by itself
+};
+
 struct PassInfo {
     std::string name, type, doc;
     bool off = false, culled = false;
+    bool canBeOff = false, isScene = false;
     std::vector<Parameter> parameters;  ///< as they are now
     std::vector<Value> given;           ///< what the graph file (or the command line) says
+    std::vector<WireInfo> inputs, outputs;
+};
+
+/// What edits the graph panel can offer, once it was opened.
+struct EditInfo {
+    struct Type {
+        std::string name, doc;
+        std::vector<Question> questions;  ///< before it can be added
+    };
+    std::vector<Type> types;                                     ///< all that there are
+    std::vector<std::vector<std::size_t>> swaps;                 ///< of each pass: types that can take its place
+    std::vector<std::vector<std::vector<Offer>>> offers;         ///< of each input of each pass
 };
 
 /// What stays the same until a session is built anew.
@@ -49,7 +80,9 @@ struct GraphInfo {
     bool software = false;  ///< the device is the CPU
     std::array<glm::vec3, 2> bounds{};
     std::vector<PassInfo> passes;
+    std::vector<EdgeInfo> edges;
     std::vector<PortInfo> ports;
+    EditInfo edits;
 };
 
 /// A port as it was after a frame.
@@ -74,6 +107,12 @@ struct PassTime {
     std::uint64_t runs = 0;   ///< frames in which it ran
     double milliseconds = 0;  ///< smoothed over some frames
     RayCounts rays{};         ///< of the last frame
+    /// Of the last frame, whatever they were for.
+    double allRays() const {
+        double sum = 0;
+        for (std::uint32_t purpose = 0; purpose < RAYS_STEPS; ++purpose) sum += double(rays[purpose]);
+        return sum;
+    }
     std::vector<float> history;  ///< milliseconds of the session's last frames in which it ran, the latest last
 };
 
@@ -90,6 +129,8 @@ struct ViewStatus {
     bool paused = false;
     std::string busy;                   ///< what takes long just now; empty: nothing
     std::vector<std::string> problems;  ///< "file:line:column: what; hint"
+    std::string refused;                ///< the edit that they are of; empty: they are of files
+    std::string undo, redo;             ///< the edits that would be taken back and done again; empty: none
     std::optional<Statistics> statistics;
     std::string note;                   ///< what was done last: "wrote out/display.12.exr"
     std::string failure;                ///< the renderer is finished, and why

@@ -34,10 +34,10 @@ Window::Window(glm::ivec2 size, const std::string& title) {
     glfwSetCursorPosCallback(window_, note);
     glfwSetMouseButtonCallback(window_, note);
     glfwSetScrollCallback(window_, note);
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int mods) {
         Window& window = *static_cast<Window*>(glfwGetWindowUserPointer(w));
         window.input_ = true;
-        if (action == GLFW_PRESS) window.keys_.push_back(key);
+        if (action == GLFW_PRESS) window.keys_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
     });
     glfwSetCharCallback(window_, note);
     glfwSetFramebufferSizeCallback(window_, note);

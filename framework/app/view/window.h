@@ -31,14 +31,18 @@ public:
 
     /// Takes what came in, waiting up to `seconds` for something. Where that is input of the user: a time that it didn't come before.
     std::optional<Clock::time_point> takeInput(double seconds);
-    /// The keys (GLFW's numbers) that went down since this was last asked, even those that are up again.
-    std::vector<int> takeKeys() { return std::exchange(keys_, {}); }
+    struct Key {
+        int key;  ///< GLFW's number
+        bool control, shift;
+    };
+    /// The keys that went down since this was last asked, even those that are up again.
+    std::vector<Key> takeKeys() { return std::exchange(keys_, {}); }
     static void wake();  ///< ends the wait; from any thread
 
 private:
     GLFWwindow* window_ = nullptr;
     bool input_ = false;
-    std::vector<int> keys_;
+    std::vector<Key> keys_;
     Clock::time_point taken_ = Clock::now();  ///< when the last look for input ended
 };
 
