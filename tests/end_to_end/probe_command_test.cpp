@@ -243,33 +243,38 @@ TEST_F(ProbeWeights, VerticesAddUpToTheImage) {
     EXPECT_GT(lit, 6u);
 }
 
-// The balance heuristic of two: both techniques' weights of one path, from what is told, sum to 1.
+// The balance heuristic of two: both techniques' weights of one path, from what is told, sum to 1. By fractions of a pixel the past is one technique, whichever
+// of its pixels a path is from.
 TEST_F(ProbeWeights, TechniquesShareEachPath) {
     const Path file = graph({{"hits", hitsNode()},
                              {"initial", initialNode({{"bounces", 3}})},
-                             {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"))}},
+                             {"temporal", node("temporal_reprojection", pathsOf("initial", "temporal"), {{"gather", "fractional"}})}},
                             "temporal.color");
     Probed probed(file, "ensemble_moving", small);
     for (int i = 0; i < 2; ++i) probed.run();
-    std::size_t shared = 0;
+    std::size_t shared = 0, past = 0;
     for (const glm::ivec2 pixel : someOf(small, step)) {
         const OrderedJson told = probed.ask("temporal", pixel).at(0);
-        if (!told.contains("candidates")) continue;
-        ASSERT_EQ(told.at("candidates").size(), 2u);
-        for (const OrderedJson& candidate : told.at("candidates")) {
-            if (!candidate.contains("m")) continue;
-            const OrderedJson& other = told.at("candidates").at(&candidate == &told.at("candidates").at(0) ? 1 : 0);
-            const bool own = candidate.at("path") == "own";
-            // p^ from where it was made and p^ from the other technique, each times its confidence.
-            const double target = candidate.at("target"), from = candidate.at("targetFrom"), c = candidate.at("confidence"), cOther = other.at("confidence");
-            const double mine = c * (own ? target : from), theirs = cOther * (own ? from : target);
-            if (mine + theirs == 0) continue;
-            const double m = candidate.at("m");
+        if (!told.contains("ownCandidate")) continue;
+        const double cOwn = told.at("own").at("confidence"), cPast = told.at("confidencePast");
+        const auto expectShare = [&](const OrderedJson& candidate, double c, double pHat, double cOther, double pHatOther) {
+            const double mine = c * pHat, theirs = cOther * pHatOther, m = candidate.at("m");
+            if (mine + theirs == 0) return;
             EXPECT_NEAR(m, mine / (mine + theirs), 1e-5) << candidate;
             shared += m > 0 && m < 1;
+        };
+        // p^ from where it was made and p^ from the other technique, each times its confidence.
+        const OrderedJson& own = told.at("ownCandidate");
+        expectShare(own, cOwn, own.at("target"), cPast, own.at("targetFrom"));
+        for (const OrderedJson& shift : told.at("shifts")) {
+            if (!shift.contains("candidate")) continue;
+            const OrderedJson& candidate = shift.at("candidate");
+            expectShare(candidate, cPast, candidate.at("targetFrom"), cOwn, candidate.at("target"));
+            ++past;
         }
     }
     EXPECT_GT(shared, 6u);
+    EXPECT_GT(past, 3u);
 }
 
 // Pairwise: the own path has its share of the beginning and one from each neighbour, and no more; a neighbour's is what the comparison of two gives.

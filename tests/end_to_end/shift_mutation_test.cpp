@@ -227,8 +227,8 @@ TEST_F(Mutations, Energy) {
 // The furnace's answer is exact, so that even small faults of temporal weights stand out.
 TEST_F(Mutations, Furnace) {
     plant(folder.path, {{"cap_on_one_side", "temporal_reprojection", "temporal_reprojection.comp",
-                         "float mOwn = balanceMis(mine * target(r.own), r.confidence * r.back);",
-                         "float mOwn = balanceMis(mine * target(r.own), confidence(r.past) * r.back);"}});
+                         "float m = balanceMis(mine * target(r.own), r.confidence * r.back);",
+                         "float m = balanceMis(mine * target(r.own), confidence(historyReservoirs(place(pastPixel(r, 0)))) * r.back);"}});
     ASSERT_FALSE(HasFailure());
     OrderedJson passes{{"hits", hitsNode()}, {"initial", initialNode({{"bounces", 2}, {"technique", "bsdf"}, {"roulette", false}})}};
     const std::vector<std::string> images{"right_image", "cap_on_one_side_image"};

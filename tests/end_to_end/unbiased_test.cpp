@@ -77,7 +77,7 @@ TEST(UnbiasedLightPoints, HaveTheMeanOfOneScattering) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Unbiased,
                          testing::Values(Case{"ensemble_diffuse", 2, 64}, Case{"ensemble_glossy", 4, 96}, Case{"ensemble_layers", 4, 96},
-                                         Case{"ensemble_glass", 4, 96}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
+                                         Case{"ensemble_glass", 4, 192}, Case{"ensemble_lights", 4, 64}, Case{"ensemble_environment", 2, 64},
                                          Case{"ensemble_panes", 4, 96}, Case{"ensemble_lens", 8, 96},
                                          Case{"ensemble_orthographic", 2, 64, "restir_lod.json"}),
                          [](const auto& test) { return test.param.scene + (test.param.graph == std::string("restir_lod.json") ? "_splatted" : ""); });
