@@ -72,8 +72,8 @@ TEST_F(HistoryTest, DuplicationMapCountsCopies) {
     }
 }
 
-// Where paths of last frame are found again, and at which place of their pixel. If this fails, the fractional gather takes paths of elsewhere, or leaves them at
-// the place inside the pixel that they had, like the nearest.
+// Where paths of last frame are found again, and at which place of their pixel. If this fails, the fractional gather takes paths of elsewhere, or leaves them
+// at the place inside the pixel that they had, like the nearest.
 TEST_F(HistoryTest, PathsMoveByFractionsOfPixels) {
     constexpr glm::uvec2 size{48, 27};
     OrderedJson passes{{"hits", hitsNode()},

@@ -29,9 +29,9 @@ struct TemporalReprojection final : Pass {
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
                                  Format::rgba32f, Need::optional};
     Param<Gather>          gather{this, "gather", Gather::nearest, {"nearest", "fractional"},
-                                  "where the pixel's past is: the pixel that its centre was in, whose path keeps its place inside the pixel; or the four that it "
-                                  "lay on, of whose paths each keeps its place on what is seen, moved by the fraction of a pixel as well (Zhang et al. 2024, Area "
-                                  "ReSTIR). The nearest wherever the camera sample isn't the path's (camera of initial_sampling)"};
+                                  "where the pixel's past is: the pixel that its centre was in, whose path keeps its place inside the pixel; or the four that "
+                                  "it lay on, of whose paths each keeps its place on what is seen, moved by fractions of a pixel as well (Zhang et al. 2024, "
+                                  "Area ReSTIR). The nearest wherever the camera sample isn't the path's (camera of initial_sampling)"};
     History                reused{this};
     Similarity             similarity{this, -1, 1e6f};
     SuffixRule             suffix{this};
