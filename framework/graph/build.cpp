@@ -18,7 +18,6 @@ namespace {
 constexpr const char* sceneName = "scene";  // the node, and its type, that stand for the scene file
 
 bool isWorld(const Port& port) { return port.type.isSame(PortTypeOf<World>::value); }  // what the scene makes
-bool isInput(const Port& port) { return port.isInput(); }
 
 class GraphBuilder {
 public:

@@ -9,6 +9,7 @@
 
 namespace lodestir {
 
+inline bool isInput(const Port& port) { return port.isInput(); }
 /// Can another pass read it? (Scratch can only be shown or dumped.)
 inline bool isMade(const Port& port) { return port.role == Port::Role::out || port.role == Port::Role::state; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // README's commands do what they say, in its order, with smaller pictures. Each is run here or listed with the reason why not, so that a new one is one or
 // the other.
+#include "../environment_variable.h"
 #include "markdown_page.h"
 #include "program.h"
 
@@ -46,9 +47,10 @@ protected:
         run("reference", sourceFolder / "graphs/path_tracer.json",
             {"--scene", (sourceFolder / "scenes/interior.json").string(), "--size", "48x27", "--seed", "2", "--frames", "2"});
         std::filesystem::copy_file(folder / "reference/display.0.exr", folder / "reference.exr");
-        ::setenv("PATH", ("/usr/bin:" + std::string(std::getenv("PATH"))).c_str(), /* replace = */ 1);  // Debian's Python has the report's packages
         writeFile(folder / "paper.mplstyle", "figure.figsize: 7, 2.4\n");
     }
+
+    EnvironmentVariable path{"PATH", ("/usr/bin:" + std::string(std::getenv("PATH"))).c_str()};  // Debian's Python has the report's packages
 };
 
 TEST_F(Readme, CommandsWork) {
@@ -57,29 +59,29 @@ TEST_F(Readme, CommandsWork) {
     for (const auto& [command, why] : listed) unused.insert(command);
     int run = 0;
     // The page with nothing but its commands, on the lines where they stand.
-    std::istringstream text(readText(sourceFolder / "README.md"));
-    std::string language;
-    bool inside = false;
-    for (std::string line; std::getline(text, line);) {
-        if (line.starts_with("```")) {
-            inside = !inside;
-            if (inside) language = line.substr(3);
-            page += (language == "sh" ? line : "") + "\n";
-            continue;
-        }
-        std::string command = inside && language == "sh" ? withoutComment(line) : "";
-        const auto reason = std::ranges::find_if(listed, [&](const auto& entry) { return command.starts_with(entry.first); });
-        if (reason != listed.end()) {
-            unused.erase(reason->first);
-            std::smatch file;
-            if (std::regex_search(command, file, std::regex("studies/[a-z_0-9/]+\\.json"))) {
-                EXPECT_NO_THROW(loadStudy(sourceFolder / file[0].str())) << command;
+    const std::string readme = readText(sourceFolder / "README.md");
+    std::vector<std::string> lines(std::size_t(std::ranges::count(readme, '\n')) + 1);
+    for (const PageBlock& block : blocksOf(readme)) {
+        if (block.language != "sh") continue;
+        std::string* line = &lines[std::size_t(block.line - 1)];
+        line[-1] = "```sh";
+        for (std::size_t i = 0; i < block.lines.size(); ++i, ++line) {
+            const std::string command = withoutComment(block.lines[i]);
+            const auto reason = std::ranges::find_if(listed, [&](const auto& entry) { return command.starts_with(entry.first); });
+            if (reason != listed.end()) {
+                unused.erase(reason->first);
+                std::smatch file;
+                if (std::regex_search(command, file, std::regex("studies/[a-z_0-9/]+\\.json"))) {
+                    EXPECT_NO_THROW(loadStudy(sourceFolder / file[0].str())) << command;
+                }
+            } else if (!command.empty()) {
+                ++run;
+                *line = shrunk(command);
             }
-            command.clear();
-        } else if (!command.empty())
-            ++run;
-        page += (command.empty() ? "" : shrunk(command)) + "\n";
+        }
+        *line = "```";
     }
+    for (const std::string& line : lines) page += line + "\n";
     EXPECT_TRUE(unused.empty()) << *unused.begin() << " is listed, but not in README.md";
     EXPECT_GE(run, 15);
 

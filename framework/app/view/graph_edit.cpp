@@ -10,7 +10,6 @@ namespace {
 
 constexpr const char* sceneType = "scene";
 
-bool isInput(const Port& port) { return port.isInput(); }
 bool isHandle(const Wire& wire) { return !wire.bundle && wire.port().type.kind == PortType::Kind::handle; }
 bool isWorld(const Wire& wire) { return isHandle(wire) && wire.port().type.isSame(PortTypeOf<World>::value); }
 bool isPrevious(std::string_view input) { return input.ends_with("Prev"); }

@@ -25,9 +25,9 @@ using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
-/// Follows `value`, at once where it is far off.
 constexpr std::size_t framesRemembered = 240;
 
+/// Follows `value`, at once where it is far off.
 void smooth(double& mean, double value) { mean = mean <= 0 || value > 2 * mean || value < 0.5 * mean ? value : 0.8 * mean + 0.2 * value; }
 
 bool sameView(const CameraKey& a, const CameraKey& b) {
@@ -304,7 +304,7 @@ void ViewSession::describeWires(GraphInfo& info) const {
             info.passes[n].outputs.push_back(std::move(output));
         }
     for (std::size_t n = 0; n < graph.nodes.size(); ++n)
-        for (const Wire& wire : wiresOf(*graph.nodes[n].pass, [](const Port& port) { return port.isInput(); })) {
+        for (const Wire& wire : wiresOf(*graph.nodes[n].pass, isInput)) {
             info.passes[n].inputs.push_back(describeWire(wire));
             const std::optional<Feed> feed = feedOf(graph, int(n), wire);
             if (!feed) continue;
@@ -324,7 +324,7 @@ void ViewSession::describeEdits(GraphInfo& info) const {
         for (std::size_t t = 0; t < types_.size(); ++t)
             if (swapPatch(graph, int(n), types_[t])) info.edits.swaps.back().push_back(t);
         info.edits.offers.emplace_back();
-        for (const Wire& input : wiresOf(*graph.nodes[n].pass, [](const Port& port) { return port.isInput(); }))
+        for (const Wire& input : wiresOf(*graph.nodes[n].pass, isInput))
             info.edits.offers.back().push_back(offersFor(graph, int(n), input));
     }
 }
