@@ -158,6 +158,7 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_2)) viewport_.zoomTo(2);
     if (pressed(GLFW_KEY_4)) viewport_.zoomTo(4);
     if (pressed(GLFW_KEY_8)) viewport_.zoomTo(8);
+    if (pressed(GLFW_KEY_S, true)) send([](ViewSession& s) { s.saveIntoGraph(); });
     if (pressed(GLFW_KEY_S)) send([out = out_](ViewSession& s) { s.save(out); });
     if (pressed(GLFW_KEY_T)) send([out = out_](ViewSession& s) { s.saveTimes(out); });
     if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) help_ = !help_;
@@ -268,6 +269,10 @@ void Panels::drawOutput(const ViewStatus& status) {
     }
     mark("size");
     tip("size of the frame");
+    if (button("save into graph", "Into the file", "what is changed by hand, into the graph's own file (the variant's patch where one is chosen), the rest of which stays as "
+                                                   "it is written: Ctrl + S", third))
+        send([](ViewSession& s) { s.saveIntoGraph(); });
+    ImGui::SameLine();
     if (button("save times", "Save times", "of the last frames, pass by pass: times.csv, and trace.json for Perfetto: T", third))
         send([out = out_](ViewSession& s) { s.saveTimes(out); });
     ImGui::SameLine();

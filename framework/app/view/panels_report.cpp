@@ -172,7 +172,7 @@ void Panels::drawHelp() {
                                                {"B", "A | B with a line to drag, A, B, A - B"},
                                                {"G", "the graph: its passes and edges, to be edited"},
                                                {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},
-                                               {"S", "save what is shown (EXR, PNG)"},
+                                               {"S   Ctrl + S", "save what is shown (EXR, PNG); edits into the graph's file"},
                                                {"T", "save the last frames' times (CSV, Perfetto)"},
                                                {"F12", "picture of the whole window"},
                                                {"Ctrl + click on a slider", "type the number"},

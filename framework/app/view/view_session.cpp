@@ -3,6 +3,7 @@
 
 #include <framework/app/dump.h>
 #include <framework/app/run_report.h>
+#include <framework/app/view/graph_text.h>
 #include <framework/core/log.h>
 #include <framework/gpu/commands.h>
 #include <framework/gpu/include_closure.h>
@@ -614,6 +615,27 @@ void ViewSession::saveGraph(const Path& file) {
         log::note("{}", status_.note);
     });
     tell();
+}
+
+void ViewSession::saveIntoGraph() {
+    if (!session_) return;
+    attempt([&] {
+        GraphOptions changes = options_.changes;
+        for (const GraphNode& node : session_->graph().nodes)
+            for (const Parameter* parameter : node.pass->parameters) {
+                const std::string name = node.name + "." + std::string(parameter->name);
+                if (set_.contains(name)) changes.set.push_back({name, writeValue(*parameter, parameter->value)});
+            }
+        const Path& file = session_->graph().description.file;
+        writeFile(file, textWithChanges(readText(file), file, changes));
+        options_.changes.patches.clear();
+        options_.changes.set.clear();
+        set_.clear();
+        history_ = {};
+        status_.note = "wrote into " + file.string();
+        log::note("{}", status_.note);
+    });
+    tell();  // reloadChanged() sees to the rest
 }
 
 }  // namespace lodestir

@@ -49,6 +49,7 @@ public:
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
     void save(const Path& folder);       ///< EXR and PNG of the shown image, .npy of a shown buffer
     void saveGraph(const Path& file);    ///< with all that is set now
+    void saveIntoGraph();                ///< edits and parameters, into the graph's own file: they are made by hand no more
     void saveTimes(const Path& folder);  ///< of the last frames: times.csv, and trace.json for Perfetto
 
 private:
