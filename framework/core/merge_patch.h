@@ -14,8 +14,8 @@ enum class Nulls {
     keep     ///< it is written: what the patch is merged into is a patch itself
 };
 
-/// `text`, an object as JSON that Json::parse accepts, with the patch merged into it. What the patch doesn't name keeps its bytes; new members follow the last one
-/// and are parted as those before them are.
+/// `text`, an object as JSON that Json::parse accepts, with the patch merged into it. What the patch doesn't name keeps its bytes; new members follow the
+/// last one and are parted as those before them are.
 LODESTIR_API std::string mergedText(std::string_view text, const Json& patch, Nulls nulls = Nulls::remove);
 
 }  // namespace lodestir

@@ -269,8 +269,9 @@ void Panels::drawOutput(const ViewStatus& status) {
     }
     mark("size");
     tip("size of the frame");
-    if (button("save into graph", "Into the file", "what is changed by hand, into the graph's own file (the variant's patch where one is chosen), the rest of which stays as "
-                                                   "it is written: Ctrl + S", third))
+    if (button("save into graph", "Into the file",
+               "what is changed by hand, into the graph's own file (the variant's patch where one is chosen), whose other lines stay as they are: Ctrl + S",
+               third))
         send([](ViewSession& s) { s.saveIntoGraph(); });
     ImGui::SameLine();
     if (button("save times", "Save times", "of the last frames, pass by pass: times.csv, and trace.json for Perfetto: T", third))
