@@ -70,6 +70,7 @@ public:
     /// To it and all that it started.
     void kill(int signal) const { ::kill(-pid_, signal); }
 
+    pid_t pid() const { return pid_; }
     /// Still running (asks the system).
     bool running() {
         if (running_ && ::waitpid(pid_, &status_, WNOHANG) == pid_) running_ = false;

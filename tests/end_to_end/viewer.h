@@ -139,6 +139,7 @@ public:
         std::this_thread::sleep_for(200ms);
         return readPng(shot);
     }
+    pid_t pid() const { return process_.pid(); }
     bool running() { return process_.running(); }
     Output wait() { return process_.wait(90s); }
 
