@@ -2,8 +2,7 @@
 // `lodestir probe`: what happened to one pixel in one frame, told by the shaders themselves.
 #include <framework/app/command_line.h>
 #include <framework/app/commands/commands.h>
-#include <framework/app/port_value.h>
-#include <framework/app/probe_tree.h>
+#include <framework/app/pixel_report.h>
 #include <framework/app/session.h>
 #include <framework/core/json.h>
 #include <framework/core/log.h>
@@ -39,14 +38,6 @@ glm::ivec2 readPixel(const std::string& text) {
     refuseOption("--pixel", "\"" + text + "\" is no pixel; write it like 109,69");
 }
 
-OrderedJson dispatchJson(const ProbedDispatch& dispatch, glm::ivec2 pixel) {
-    OrderedJson json{{"shader", dispatch.shader}};
-    if (!dispatch.arguments.empty()) json["arguments"] = dispatch.arguments;
-    if (dispatch.lost > 0) json["lost"] = dispatch.lost;
-    json["invocations"] = probeTree(dispatch, pixel);
-    return json;
-}
-
 int probePixel(const ProbeOptions& options) {
     SessionParts parts;
     parts.probe = true;
@@ -64,18 +55,6 @@ int probePixel(const ProbeOptions& options) {
     const std::vector<ProbedDispatch> told = runner.probe(options.pixel);
     progress.advance();
 
-    OrderedJson passes = OrderedJson::object();
-    for (const PlanStep& step : runner.plan().steps) {
-        const GraphNode& node = graph.nodes[std::size_t(step.node)];
-        OrderedJson dispatches = OrderedJson::array(), values = OrderedJson::object();
-        for (const ProbedDispatch& dispatch : told) {
-            if (dispatch.lost > 0) log::warn("{}: {} records of {} found no room", node.name, dispatch.lost, dispatch.shader);
-            if (dispatch.node == step.node) dispatches.push_back(dispatchJson(dispatch, options.pixel));
-        }
-        for (const Source& port : session.dumps())
-            if (port.node == step.node) values[std::string(graph.port(port).name)] = pixelValue(session, port, options.pixel);
-        passes[node.name] = {{"type", node.type}, {"dispatches", dispatches}, {"ports", values}};
-    }
     const OrderedJson json{{"lodestir", std::string(LODESTIR_VERSION)},
                            {"graph", graph.description.file.string()},
                            {"scene", graph.description.scene.string()},
@@ -83,7 +62,7 @@ int probePixel(const ProbeOptions& options) {
                            {"seed", graph.description.seed},
                            {"frame", options.frame},
                            {"pixel", {options.pixel.x, options.pixel.y}},
-                           {"passes", passes}};
+                           {"passes", pixelReport(session, told, options.pixel)}};
     std::printf("%s\n", Json::from(json).dump().c_str());
     return 0;
 }

@@ -132,4 +132,10 @@ glm::mat3 warpBetween(const CameraKey& from, const CameraKey& to, float aspect) 
     return place;
 }
 
+glm::vec3 placeInPicture(const CameraKey& camera, const glm::vec3& point, float aspect) {
+    const Projection projection(camera, aspect);
+    const glm::vec3 place = glm::inverse(projection.axes) * (point - projection.base);
+    return projection.orthographic ? glm::vec3(place.x, place.y, 1) : place;
+}
+
 }  // namespace lodestir

@@ -21,5 +21,7 @@ LODESTIR_API Json cameraJson(const CameraKey& camera);
 /// From places in the picture of camera `to` to places in that of camera `from`, both 0..1 to the right and downwards, homogeneous; exact for what
 /// lies in the plane through `from`'s target that faces `from`. Shows an older picture as the newer camera would roughly see it.
 LODESTIR_API glm::mat3 warpBetween(const CameraKey& from, const CameraKey& to, float aspect);
+/// Where the picture of a camera has a point of the world: its place as above, homogeneous; z <= 0: behind the camera.
+LODESTIR_API glm::vec3 placeInPicture(const CameraKey& camera, const glm::vec3& point, float aspect);
 
 }  // namespace lodestir

@@ -21,6 +21,7 @@ Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Compa
       viewport_(viewport),
       comparison_(comparison),
       graphPanel_(renderer, [this](const std::string& name) { mark(name); }, [this](const std::string& port) { showPort(port); }),
+      pixelPanel_(renderer, [this](const std::string& name) { mark(name); }),
       out_(std::move(out)),
       wantsStatistics_(wantsStatistics) {}
 
@@ -124,7 +125,9 @@ void Panels::draw(const ViewStatus& status) {
     ImGui::End();
     ImGui::PopStyleColor();
 
-    graphPanel_.draw(status, port_, pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)}));
+    const Rectangle area = pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)});
+    graphPanel_.draw(status, port_, area);
+    if (!graphPanel_.isOpen()) pixelPanel_.draw(status, viewport_, viewport_.camera().value_or(status.camera.key), area);
     drawProblems(status);
     drawHelp();
 
@@ -145,6 +148,7 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_Z, true)) send([](ViewSession& s) { s.undo(); });
     if (pressed(GLFW_KEY_Z, true, true) || pressed(GLFW_KEY_Y, true)) send([](ViewSession& s) { s.redo(); });
     if (pressed(GLFW_KEY_G)) graphPanel_.toggle();
+    if (pressed(GLFW_KEY_P)) pixelPanel_.ask(viewport_);
     if (pressed(GLFW_KEY_SPACE)) send([paused = !paused_](ViewSession& s) { s.pause(paused); });
     if (pressed(GLFW_KEY_N)) send([](ViewSession& s) { s.step(); });
     if (pressed(GLFW_KEY_R)) send([](ViewSession& s) { s.resetHistory(); });
@@ -164,6 +168,7 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) help_ = !help_;
     if (pressed(GLFW_KEY_ESCAPE)) {
         help_ = false;
+        pixelPanel_.close();
         if (!status.refused.empty()) send([](ViewSession& s) { s.dismiss(); });
     }
     if (pressed(GLFW_KEY_F12)) screenshot_ = true;

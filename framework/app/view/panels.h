@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/app/view/comparison.h>
 #include <framework/app/view/graph_panel.h>
+#include <framework/app/view/pixel_panel.h>
 #include <framework/app/view/render_thread.h>
 #include <framework/app/view/viewport.h>
 #include <framework/app/view/window.h>
@@ -70,6 +71,7 @@ private:
     Viewport& viewport_;
     Comparison& comparison_;
     GraphPanel graphPanel_;
+    PixelPanel pixelPanel_;
     Path out_;
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

@@ -171,6 +171,7 @@ void Panels::drawHelp() {
                                                {"A", "keep what is shown, to compare; let it go"},
                                                {"B", "A | B with a line to drag, A, B, A - B"},
                                                {"G", "the graph: its passes and edges, to be edited"},
+                                               {"P", "what happened to the pixel under the pointer"},
                                                {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},
                                                {"S   Ctrl + S", "save what is shown (EXR, PNG); edits into the graph's file"},
                                                {"T", "save the last frames' times (CSV, Perfetto)"},

@@ -45,6 +45,9 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"comparison",
                          {{"keeps", panels.comparison().keeps()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
                         {"widgets", panels.widgets()}};
+    if (status.told)
+        json["told"] = {{"pixel", {status.told->pixel.x, status.told->pixel.y}}, {"frame", status.told->frame}, {"first", status.told->first},
+                        {"paths", status.told->paths.size()}, {"passes", *status.told->passes}};
     if (status.statistics) json["mean"] = status.statistics->mean;
     for (const PassTime& pass : status.passes) json["runs"][pass.name] = pass.runs;
     for (const auto& [name, value] : panels.values())

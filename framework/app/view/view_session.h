@@ -47,6 +47,9 @@ public:
 
     /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
+    /// What happened to a pixel in the frame that is shown, rendered again with the frames before it by a session that asks.
+    void askPixel(glm::ivec2 pixel);
+    void forgetPixel();
     void save(const Path& folder);       ///< EXR and PNG of the shown image, .npy of a shown buffer
     void saveGraph(const Path& file);    ///< with all that is set now
     void saveIntoGraph();                ///< edits and parameters, into the graph's own file: they are made by hand no more
@@ -75,6 +78,7 @@ private:
     std::shared_ptr<const gpu::Device> device_;
     Publish publish_;
     std::unique_ptr<Session> session_;
+    std::unique_ptr<Session> asking_;          ///< of the same graph and scene, with shaders that tell; nullptr: nobody has asked
     ViewStatus status_;
     FileWatch watch_;
     std::vector<Path> stale_;                  ///< changed since shaders were last taken over

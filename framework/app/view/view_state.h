@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/app/view/graph_edit.h>
 #include <framework/app/view/texel_values.h>
+#include <framework/app/view/told_paths.h>
 #include <framework/gpu/buffer.h>
 #include <framework/graph/graph.h>
 #include <framework/graph/runner.h>
@@ -116,6 +117,15 @@ struct PassTime {
     std::vector<float> history;  ///< milliseconds of the session's last frames in which it ran, the latest last
 };
 
+/// What happened to one pixel of a frame, told by the shaders.
+struct PixelTold {
+    glm::ivec2 pixel{-1};
+    glm::uvec2 size{0};                  ///< of the frame
+    std::uint32_t frame = 0, first = 0;  ///< rendered again from the first on
+    std::shared_ptr<const nlohmann::ordered_json> passes;  ///< as pixelReport() has them
+    std::vector<ToldPath> paths;
+};
+
 struct ViewStatus {
     std::shared_ptr<const GraphInfo> graph;  ///< nullptr: nothing was ever built
     std::vector<PassTime> passes;
@@ -132,6 +142,7 @@ struct ViewStatus {
     std::string refused;                ///< the edit that they are of; empty: they are of files
     std::string undo, redo;             ///< the edits that would be taken back and done again; empty: none
     std::optional<Statistics> statistics;
+    std::shared_ptr<const PixelTold> told;  ///< of the pixel that was asked last; nullptr: none
     std::string note;                   ///< what was done last: "wrote out/display.12.exr"
     std::string failure;                ///< the renderer is finished, and why
 };

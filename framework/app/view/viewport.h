@@ -21,6 +21,10 @@ public:
     float zoom() const { return scale_; }
     /// From pixels of the rectangle to pixels of the image: a picture of an older camera is warped to where the camera is by now.
     glm::mat3 toImage(const Picture& picture) const;
+    /// In pixels of the window, of a place in the picture that the camera sees by now: 0..1 to the right and downwards.
+    glm::vec2 inWindow(glm::vec2 place) const {
+        return glm::vec2(place_.corner) + 0.5f * glm::vec2(place_.size) + scale_ * (place * glm::vec2(extent_) - centre_);
+    }
     glm::ivec2 pixelUnderPointer() const { return pixel_; }  ///< {-1, -1}: none
 
 private:
