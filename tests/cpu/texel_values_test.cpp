@@ -5,6 +5,7 @@
 #include <glm/gtc/packing.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -64,6 +65,34 @@ TEST(TexelValues, StatisticsPickAndMean) {
     EXPECT_FLOAT_EQ(statisticsOf(bytes, 100, layoutOf(Format::rgba32f), 0).largest, 2.0f);
     EXPECT_NEAR(statisticsOf(bytes, 100, layoutOf(Format::rgba32f), 0).mean, -0.5 / 3, 1e-6);  // without opacity
     EXPECT_EQ(statisticsOf({}, 100, layoutOf(Format::rgba32f), 0).high, 0);                    // memory that is too short is not read
+}
+
+TEST(TexelValues, ImagesOfTexels) {
+    // A field of 3 floats, 4 bytes into each of 2 structs of 20.
+    std::vector<float> memory(10);
+    for (std::size_t i = 0; i < memory.size(); ++i) memory[i] = float(i);
+    const TexelLayout layout{.stride = 20, .offset = 4, .number = NUMBER_FLOAT32, .channels = 3};
+    const ImageData image = imageOf(std::as_bytes(std::span(memory)), {2, 1}, layout);
+    EXPECT_EQ(image.values, (std::vector<float>{1, 2, 3, 6, 7, 8}));
+    EXPECT_FALSE(image.hasOpacity);
+    EXPECT_TRUE(imageOf({}, {2, 1}, layoutOf(Format::rgba32f)).hasOpacity) << "as an image file has it";
+}
+
+TEST(TexelValues, HistogramsHaveOneRange) {
+    ImageData dark = makeImage(100, 10, 1), bright = dark;
+    for (std::size_t i = 0; i < 1000; ++i) {
+        dark.values[i] = float(i) / 1000;
+        bright.values[i] = 1 + float(i) / 1000;
+    }
+    bright.values[0] = std::numeric_limits<float>::quiet_NaN();
+    const std::array<const ImageData*, 2> both{&dark, &bright};
+    const Histograms histograms = histogramsOf(both, 0, 10);
+    EXPECT_NEAR(histograms.low, 0.01f, 0.002f);
+    EXPECT_NEAR(histograms.high, 1.99f, 0.002f);
+    for (std::size_t bin = 0; bin < 10; ++bin) {
+        EXPECT_NEAR(histograms.shares[0][bin], bin < 5 ? 0.2f : 0.0f, 0.015f) << bin;
+        EXPECT_NEAR(histograms.shares[1][bin], bin < 5 ? 0.0f : 0.2f, 0.015f) << bin;
+    }
 }
 
 TEST(TexelValues, CountsAndBytes) {

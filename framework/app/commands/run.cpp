@@ -122,11 +122,11 @@ int runGraph(const RunOptions& options) {
                 writePng(options.out / (shownName + suffix + ".png"), preview(image));
             }
         } else if (!shownIsImage && write) {
-            dumpPort(session, graph.show, options.out / (shownName + suffix));
+            dumpPort(graph, runner, graph.show, options.out / (shownName + suffix));
         }
         for (const Source& source : session.dumps()) {
             if (options.checkNan && graph.port(source).type.kind == PortType::Kind::image) requireFinite(runner.readImage(source), graph.nameOf(source));
-            if (write) dumpPort(session, source, options.out / (graph.nameOf(source) + suffix));
+            if (write) dumpPort(graph, runner, source, options.out / (graph.nameOf(source) + suffix));
         }
         if (!options.trace.empty()) reports.push_back(report);
         frames.push_back(frameJson(report, metrics, options.session.countSteps));

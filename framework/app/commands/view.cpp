@@ -6,6 +6,8 @@
 #include <framework/app/command_line.h>
 #include <framework/app/view/panels.h>
 #include <framework/app/view/self_report.h>
+#include <framework/app/validators.h>
+#include <framework/core/is_file.h>
 #include <framework/core/log.h>
 
 #include <memory>
@@ -15,10 +17,19 @@ namespace {
 
 struct ViewOptions {
     SessionOptions session;
+    ComparedFirst compared;
     glm::uvec2 window{1440, 900};
-    Path out = "out", screenshot = "view.png", selfReport;
-    bool screenshotAtEnd = false;
+    Path out = "out", selfReport;
+    std::optional<Path> screenshot;  ///< where one is wanted at the end, too
 };
+
+/// "restir_pt.json:no spatial": what stands behind the last colon is a variant, unless the whole is a file.
+void takeCompared(const std::string& text, ComparedFirst& compared) {
+    const std::size_t colon = isFile(text) ? std::string::npos : text.rfind(':');
+    compared.graph = text.substr(0, colon);
+    if (colon != std::string::npos) compared.variant = text.substr(colon + 1);
+    if (!isFile(compared.graph)) refuseOption("--compare", "there is no file " + compared.graph.string());
+}
 
 /// Draws the window until it is closed; the renderer has a thread of its own.
 int showWindow(const ViewOptions& options) {
@@ -35,7 +46,7 @@ int showWindow(const ViewOptions& options) {
     SelfReport report(options.selfReport);
     std::string failure;
     {
-        RenderThread renderer(sessionOptions, device, frames, [] { Window::wake(); });
+        RenderThread renderer(sessionOptions, options.compared, device, frames, [] { Window::wake(); });
         Panels panels(renderer, window, viewport, comparison, options.out, report.wanted());
         using Clock = Window::Clock;
         // On a CPU driver drawing the window takes time from rendering: what nobody waits for is drawn less often.
@@ -62,10 +73,10 @@ int showWindow(const ViewOptions& options) {
             const Rectangle area = panels.pictureArea(canvas.extent());
             if (const auto moved = viewport.interact(area, status->picture.extent, status->camera))
                 renderer.post([key = *moved](ViewSession& s) { s.setCamera(key); });
-            panels.drawProbe(*status, painter.probe(), area);
             panels.draw(*status);
+            panels.drawProbe(*status, painter.probe(), area);
             const bool shows = status->picture.texels && area.size.x > 0 && area.size.y > 0;
-            const bool wished = panels.takeScreenshotWish() || (last && options.screenshotAtEnd);
+            const bool wished = panels.takeScreenshotWish() || (last && options.screenshot);
             canvas.end(
                 [&](gpu::Commands& commands) {
                     if (!shows) return;
@@ -77,7 +88,7 @@ int showWindow(const ViewOptions& options) {
                 [&](gpu::Commands& commands, VkImage image) {
                     if (shows) comparison.paint(commands, image, painter);
                 },
-                wished ? options.screenshot : Path());
+                wished ? options.screenshot.value_or(options.out / "view.png") : Path());
             drawn = Clock::now();
             if (input && seen->graph && report.wanted()) {
                 canvas.wait();
@@ -103,13 +114,11 @@ void addView(CLI::App& app, std::function<int()>& run) {
     command.find("--frames").about("quit after this many frames");
     command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, "size of the window, WIDTHxHEIGHT");
     command.option("--out", options->out, "folder for what is saved").showDefault();
-    command.taken<std::string>(
-        "--screenshot",
-        [options](const std::string& v) {
-            options->screenshot = v;
-            options->screenshotAtEnd = true;
-        },
-        "PNG of the window, written by F12 and when --frames are done");
+    command.taken<std::string>("--compare", [options](const std::string& v) { takeCompared(v, options->compared); },
+                               "graph that runs beside it as A: GRAPH or GRAPH:VARIANT");
+    command.option("--reference", options->compared.image, "image that errors are shown against, as large as frames").check(checkNotEmpty);
+    command.taken<std::string>("--screenshot", [options](const std::string& v) { options->screenshot = v; },
+                               "PNG of the window, written by F12 (else view.png in --out) and when --frames are done");
     command.option("--self-report", options->selfReport, "JSON of what the viewer knows about itself, for tests");
     command.does(run, [options] { return showWindow(*options); });
 }

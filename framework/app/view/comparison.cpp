@@ -7,16 +7,16 @@
 
 namespace lodestir {
 
-void Comparison::keep(const Picture& picture, const TexelLayout& layout, const Look& look, const std::string& what) {
-    if (!picture.texels) return;
-    kept_ = Kept{picture, layout, look, what};
-    side_ = Side::split;
+void Comparison::follow(const ViewStatus& status, const TexelLayout& layout, const Look& look) {
+    if (status.a.kind != a_.kind) side_ = Side::split;
+    a_ = status.a;
+    if (a_.kind == SideA::Kind::image || (a_.picture.port == status.picture.port && a_.layout == layout)) look_ = look;
 }
 
 void Comparison::turn() { side_ = Side((int(side_) + 1) % 4); }
 
-void Comparison::draw(const Rectangle& area, const std::string& what) {
-    if (!kept_ || area.size.x <= 0 || area.size.y <= 0) return;
+void Comparison::draw(const Rectangle& area, const std::string& what, bool free) {
+    if (!has() || area.size.x <= 0 || area.size.y <= 0) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float left = float(area.corner.x), right = left + float(area.size.x), top = float(area.corner.y), bottom = top + float(area.size.y);
     const auto name = [&](const std::string& text, float x, bool endsThere) {
@@ -25,16 +25,17 @@ void Comparison::draw(const Rectangle& area, const std::string& what) {
         list.AddRectFilled({corner.x - 6, corner.y - 4}, {corner.x + size.x + 6, corner.y + size.y + 4}, IM_COL32(12, 13, 15, 200), 3);
         list.AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
     };
-    const std::string a = "A  " + kept_->what, b = "B  " + what;
-    if (side_ == Side::kept) name(a, left, false);
-    if (side_ == Side::now) name(b, left, false);
-    if (side_ == Side::difference) name("|A - B|  " + kept_->what + "  -  " + what, left, false);
+    const std::string a = "A  " + a_.what, b = "B  " + what;
+    if (side_ == Side::a) name(a, left, false);
+    if (side_ == Side::b) name(b, left, false);
+    if (side_ == Side::difference) name("|A - B|  " + a_.what + "  -  " + what, left, false);
     if (side_ != Side::split) return;
     const float x = left + split_ * float(area.size.x);
     name(a, left, false);
     name(b, right, true);
     list.AddLine({x, top}, {x, bottom}, IM_COL32(240, 240, 240, 220), 1.5f);
     list.AddCircleFilled({x, 0.5f * (top + bottom)}, 5, IM_COL32(240, 240, 240, 230));
+    if (!free) return;
     // A window of its own, so that the mouse there moves the line and not the camera.
     constexpr float reach = 7;
     ImGui::SetNextWindowPos({x - reach, top});
@@ -50,16 +51,16 @@ void Comparison::draw(const Rectangle& area, const std::string& what) {
 }
 
 const Picture* Comparison::subtracted(const Picture& now, const TexelLayout& layout) const {
-    return kept_ && side_ == Side::difference && kept_->picture.extent == now.extent && kept_->layout == layout ? &kept_->picture : nullptr;
+    return has() && side_ == Side::difference && a_.picture.extent == now.extent && a_.layout == layout ? &a_.picture : nullptr;
 }
 
 void Comparison::prepare(gpu::Commands& commands, const Rectangle& place, const glm::mat3& toImage, bool blueFirst) {
-    if (showsKept()) painter_.prepare(commands, kept_->picture, nullptr, kept_->layout, kept_->look, place, toImage, glm::ivec2(-1), blueFirst);
+    if (showsA()) painter_.prepare(commands, a_.picture, nullptr, a_.layout, look_, place, toImage, glm::ivec2(-1), blueFirst);
 }
 
 void Comparison::paint(gpu::Commands& commands, VkImage image, const PicturePainter& now) const {
-    if (!showsKept()) return now.paint(commands, image);
-    const float split = side_ == Side::kept ? 1 : split_;
+    if (!showsA()) return now.paint(commands, image);
+    const float split = side_ == Side::a ? 1 : split_;
     painter_.paint(commands, image, 0, split);
     now.paint(commands, image, split, 1);
 }

@@ -22,6 +22,7 @@ Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Compa
       comparison_(comparison),
       graphPanel_(renderer, [this](const std::string& name) { mark(name); }, [this](const std::string& port) { showPort(port); }),
       pixelPanel_(renderer, [this](const std::string& name) { mark(name); }),
+      comparisonPanel_(renderer, [this](const std::string& name) { mark(name); }, out),
       out_(std::move(out)),
       wantsStatistics_(wantsStatistics) {}
 
@@ -59,7 +60,8 @@ void Panels::showPort(const std::string& port) {
 void Panels::sendShow() {
     const TexelLayout layout = this->layout();
     const Shown& shown = shownOf_[port_];
-    send([port = port_, layout, pick = shown.look.pick, statistics = wantsStatistics_ || shown.automatic](ViewSession& s) {
+    const bool color = shown.look.look == LOOK_COLOR && layout.channels >= 3;
+    send([port = port_, layout, pick = color ? PICK_LUMINANCE : shown.look.pick, statistics = wantsStatistics_ || shown.automatic](ViewSession& s) {
         s.show(port, layout, pick, statistics);
     });
 }
@@ -128,6 +130,7 @@ void Panels::draw(const ViewStatus& status) {
     const Rectangle area = pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)});
     graphPanel_.draw(status, port_, area);
     if (!graphPanel_.isOpen()) pixelPanel_.draw(status, viewport_, viewport_.camera().value_or(status.camera.key), area);
+    comparisonPanel_.draw(status, area);
     drawProblems(status);
     drawHelp();
 
@@ -137,9 +140,11 @@ void Panels::draw(const ViewStatus& status) {
         look_.low = look_.look == LOOK_SIGNED ? 0 : status.statistics->low;
         look_.high = look_.look == LOOK_SIGNED ? std::max(status.statistics->largest, 1e-20f) : std::max(status.statistics->high, look_.low + 1e-20f);
     }
+    comparison_.follow(status, layout(), look_);
 }
 
 void Panels::keys(const ViewStatus& status) {
+    for (const Path& file : window_.takeDrops()) send([file](ViewSession& s) { s.compareWithImage(file); });
     const std::vector<Window::Key> down = window_.takeKeys();
     if (ImGui::GetIO().WantTextInput) return;
     const auto pressed = [&](int key, bool control = false, bool shift = false) {
@@ -155,7 +160,9 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_C)) moveCamera({});
     if (pressed(GLFW_KEY_F) && graph_)
         moveCamera(framed(viewport_.camera().value_or(status.camera.key), graph_->bounds, float(graph_->size.x) / float(graph_->size.y)));
-    if (pressed(GLFW_KEY_A)) keepPicture(status);
+    if (pressed(GLFW_KEY_A)) keepA(status);
+    if (pressed(GLFW_KEY_L)) runA(status);
+    if (pressed(GLFW_KEY_E)) comparisonPanel_.toggle();
     if (pressed(GLFW_KEY_B)) comparison_.turn();
     if (pressed(GLFW_KEY_0)) graphPanel_.isOpen() ? graphPanel_.fit() : viewport_.fit();
     if (pressed(GLFW_KEY_1)) viewport_.zoomTo(1);

@@ -2,6 +2,7 @@
 // The panels of the viewer: what runs, what is shown, camera, parameters of all passes, times and rays. Made from the declarations.
 #pragma once
 #include <framework/app/view/comparison.h>
+#include <framework/app/view/comparison_panel.h>
 #include <framework/app/view/graph_panel.h>
 #include <framework/app/view/pixel_panel.h>
 #include <framework/app/view/render_thread.h>
@@ -61,8 +62,8 @@ private:
     void mark(const std::string& name);
     void showPort(const std::string& port);
     void sendShow();
-    void keepPicture(const ViewStatus& status);
-    std::string whatIsShown(const ViewStatus& status) const;
+    void keepA(const ViewStatus& status);
+    void runA(const ViewStatus& status);
     void moveCamera(const std::optional<CameraKey>& camera);
     void send(RenderThread::Task task) { renderer_.post(std::move(task)); }
 
@@ -72,6 +73,7 @@ private:
     Comparison& comparison_;
     GraphPanel graphPanel_;
     PixelPanel pixelPanel_;
+    ComparisonPanel comparisonPanel_;
     Path out_;
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

@@ -145,7 +145,7 @@ void Panels::drawProblems(const ViewStatus& status) {
 }
 
 void Panels::drawProbe(const ViewStatus& status, const std::optional<PicturePainter::Probe>& probe, const Rectangle& area) {
-    if (graph_ && !graphPanel_.isOpen()) comparison_.draw(area, whatIsShown(status));
+    if (graph_) comparison_.draw(area, pictureName(graph_->file, graph_->variant, status.picture), !graphPanel_.isOpen());
     std::string text = status.picture.texels ? port_ : "";
     if (!status.picture.texels && graph_) text = port_ + ": nothing to look at";
     if (probe && viewport_.pixelUnderPointer().x >= 0) text += "   " + probeText(probe->pixel, probe->bits, probe->layout);
@@ -169,7 +169,9 @@ void Panels::drawHelp() {
                                                {"Space   N", "pause; one frame"},
                                                {"R", "restart history and accumulation"},
                                                {"A", "keep what is shown, to compare; let it go"},
+                                               {"L", "what runs goes on as A beside what is edited; stop it"},
                                                {"B", "A | B with a line to drag, A, B, A - B"},
+                                               {"E", "errors of B, and of A against a reference image"},
                                                {"G", "the graph: its passes and edges, to be edited"},
                                                {"P", "what happened to the pixel under the pointer"},
                                                {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},

@@ -137,29 +137,32 @@ void Panels::drawLook(Shown& shown, const PortField& field) {
     }
 }
 
-/// Port, variant, frame: what tells one picture from another.
-std::string Panels::whatIsShown(const ViewStatus& status) const {
-    return graph_->file.stem().string() + (graph_->variant.empty() ? "" : " (" + graph_->variant + ")") + "  " + status.picture.port +
-           fmt::format("  frame {}", status.picture.frame);
+/// A reference image stays what errors are those against while A is something else.
+void Panels::keepA(const ViewStatus& status) {
+    if (status.a.kind == SideA::Kind::kept || status.a.kind == SideA::Kind::live) send([](ViewSession& s) { s.releaseA(); });
+    else send([picture = status.picture, layout = layout()](ViewSession& s) { s.keepAsA(picture, layout); });
 }
 
-void Panels::keepPicture(const ViewStatus& status) {
-    if (comparison_.keeps()) comparison_.release();
-    else if (graph_) comparison_.keep(status.picture, layout(), look_, whatIsShown(status));
+void Panels::runA(const ViewStatus& status) {
+    if (status.a.kind == SideA::Kind::live) send([](ViewSession& s) { s.releaseA(); });
+    else send([](ViewSession& s) { s.runAsA(); });
 }
 
 void Panels::drawComparison(const ViewStatus& status) {
-    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 5 * space) / 6;
-    if (button("keep", comparison_.keeps() ? "Let A go" : "Keep as A",
-               "what is shown now stays as A, to be compared with what comes: another port, variant, graph or value: A", 2 * width + space))
-        keepPicture(status);
+    const bool live = status.a.kind == SideA::Kind::live, keeps = status.a.kind == SideA::Kind::kept;
+    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 6 * space) / 7, wide = 1.5f * width + 0.5f * space;
+    if (button("keep", live || keeps ? "Let A go" : "Keep as A",
+               "what is shown now stays as A, to be compared with what comes: another port, variant, graph or value: A", wide))
+        keepA(status);
+    ImGui::SameLine();
+    if (button("run A", live ? "Stop A" : "Run A", "what runs now goes on as A beside what is edited (B): same camera, same frames: L", wide)) runA(status);
     static constexpr std::pair<Comparison::Side, const char*> sides[] = {{Comparison::Side::split, "A | B"},
-                                                                         {Comparison::Side::kept, "A"},
-                                                                         {Comparison::Side::now, "B"},
+                                                                         {Comparison::Side::a, "A"},
+                                                                         {Comparison::Side::b, "B"},
                                                                          {Comparison::Side::difference, "A - B"}};
-    static constexpr const char* tips[] = {"side by side: drag the line", "the kept one alone", "the present one alone",
+    static constexpr const char* tips[] = {"side by side: drag the line", "A alone", "what is edited, alone",
                                            "how far each number is from the other's, where both are of one kind and size"};
-    ImGui::BeginDisabled(!comparison_.keeps());
+    ImGui::BeginDisabled(!comparison_.has());
     for (const auto& [side, label] : sides) {
         ImGui::SameLine();
         const bool chosen = comparison_.side() == side;

@@ -5,10 +5,11 @@
 
 namespace lodestir {
 
-RenderThread::RenderThread(const SessionOptions& options, std::shared_ptr<const gpu::Device> device, std::uint64_t frames, std::function<void()> wake)
+RenderThread::RenderThread(const SessionOptions& options, const ComparedFirst& first, std::shared_ptr<const gpu::Device> device, std::uint64_t frames,
+                           std::function<void()> wake)
     : wake_(std::move(wake)),
       status_(std::make_shared<ViewStatus>()),
-      thread_([this, options, device = std::move(device), frames] { run(options, device, frames); }) {}
+      thread_([this, options, first, device = std::move(device), frames] { run(options, first, device, frames); }) {}
 
 RenderThread::~RenderThread() {
     {
@@ -41,11 +42,12 @@ void RenderThread::publish(const ViewStatus& status) {
     wake_();
 }
 
-void RenderThread::run(const SessionOptions& options, const std::shared_ptr<const gpu::Device>& device, std::uint64_t frames) {
+void RenderThread::run(const SessionOptions& options, const ComparedFirst& first, const std::shared_ptr<const gpu::Device>& device,
+                       std::uint64_t frames) {
     using Clock = std::chrono::steady_clock;
     constexpr auto lookEvery = std::chrono::milliseconds(500);
     try {
-        ViewSession session(options, device, [this](const ViewStatus& status) { publish(status); });
+        ViewSession session(options, first, device, [this](const ViewStatus& status) { publish(status); });
         session.build();
         Clock::time_point looked = Clock::now();
         for (;;) {

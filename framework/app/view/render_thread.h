@@ -16,7 +16,8 @@ class RenderThread {
 public:
     using Task = std::function<void(ViewSession&)>;
     /// `wake` is called from the thread whenever there is a new status; `frames`: renders that many and then rests, 0: no end.
-    RenderThread(const SessionOptions& options, std::shared_ptr<const gpu::Device> device, std::uint64_t frames, std::function<void()> wake);
+    RenderThread(const SessionOptions& options, const ComparedFirst& first, std::shared_ptr<const gpu::Device> device, std::uint64_t frames,
+                 std::function<void()> wake);
     ~RenderThread();  ///< after the frame in the making
     RenderThread(const RenderThread&) = delete;
     RenderThread& operator=(const RenderThread&) = delete;
@@ -25,7 +26,7 @@ public:
     std::shared_ptr<const ViewStatus> status() const;
 
 private:
-    void run(const SessionOptions& options, const std::shared_ptr<const gpu::Device>& device, std::uint64_t frames);
+    void run(const SessionOptions& options, const ComparedFirst& first, const std::shared_ptr<const gpu::Device>& device, std::uint64_t frames);
     void publish(const ViewStatus& status);
 
     std::function<void()> wake_;

@@ -43,11 +43,27 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"zoom", viewport.zoom()},
                         {"area", {area.corner.x, area.corner.y, area.size.x, area.size.y}},
                         {"comparison",
-                         {{"keeps", panels.comparison().keeps()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
+                         {{"keeps", panels.comparison().has()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
                         {"widgets", panels.widgets()}};
     if (status.told)
         json["told"] = {{"pixel", {status.told->pixel.x, status.told->pixel.y}}, {"frame", status.told->frame}, {"first", status.told->first},
                         {"paths", status.told->paths.size()}, {"passes", *status.told->passes}};
+    const auto pictured = [](const Picture& picture) {
+        return OrderedJson{{"port", picture.port}, {"frame", picture.frame}, {"camera", cameraJson(picture.camera).plain()}};
+    };
+    json["b"] = pictured(status.picture);
+    if (status.a.picture.texels) {
+        static constexpr const char* kinds[] = {"nothing", "kept", "image", "live"};
+        json["a"] = pictured(status.a.picture);
+        json["a"]["kind"] = kinds[int(status.a.kind)];
+    }
+    if (status.compared) {
+        const auto last = [](const std::vector<ErrorPoint>& curve) {
+            return curve.empty() ? OrderedJson() : OrderedJson{{"frames", curve.back().frames}, {"mse", curve.back().mse}, {"relmse", curve.back().relmse}};
+        };
+        const ComparedNumbers& numbers = *status.compared;
+        json["errors"] = {{"reference", numbers.reference}, {"points", numbers.b.size()}, {"a", last(numbers.a)}, {"b", last(numbers.b)}};
+    }
     if (status.statistics) json["mean"] = status.statistics->mean;
     for (const PassTime& pass : status.passes) json["runs"][pass.name] = pass.runs;
     for (const auto& [name, value] : panels.values())

@@ -31,6 +31,21 @@ float pickFrom(const std::array<float, 4>& values, std::uint32_t channels, std::
     return std::sqrt(sum);
 }
 
+constexpr std::size_t mostTexels = 65536;  // that statistics are made of
+
+/// The numbers of the texel at `place`; components that it hasn't are 0. False where the memory ends before.
+bool readTexel(std::span<const std::byte> memory, std::size_t texel, const TexelLayout& layout, std::array<float, 4>& values) {
+    const std::size_t bytes = bytesOf(layout.number), place = texel * layout.stride + layout.offset;
+    values = {0, 0, 0, 0};
+    if (place + layout.channels * bytes > memory.size()) return false;
+    for (std::uint32_t c = 0; c < layout.channels; ++c) {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, memory.data() + place + c * bytes, bytes);
+        values[c] = numberFrom(bits, layout.number);
+    }
+    return true;
+}
+
 /// The number that a share of the others is below.
 float quantile(std::vector<float>& values, double share) {
     if (values.empty()) return 0;
@@ -110,19 +125,13 @@ std::string probeText(glm::ivec2 pixel, const std::array<std::uint32_t, 4>& bits
 }
 
 Statistics statisticsOf(std::span<const std::byte> memory, std::size_t count, const TexelLayout& layout, std::uint32_t pick) {
-    constexpr std::size_t most = 65536;
-    const std::size_t step = std::max<std::size_t>(1, count / most), bytes = bytesOf(layout.number);
+    const std::size_t step = std::max<std::size_t>(1, count / mostTexels);
     std::vector<float> picked, magnitudes;
     double sum = 0;
     std::size_t summed = 0;
-    for (std::size_t i = 0; i < count; i += step) {
-        const std::size_t place = i * layout.stride + layout.offset;
-        if (place + layout.channels * bytes > memory.size()) break;
-        std::array<float, 4> values{0, 0, 0, 0};
+    std::array<float, 4> values;
+    for (std::size_t i = 0; i < count && readTexel(memory, i, layout, values); i += step) {
         for (std::uint32_t c = 0; c < layout.channels; ++c) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, memory.data() + place + c * bytes, bytes);
-            values[c] = numberFrom(bits, layout.number);
             if (!std::isfinite(values[c])) continue;
             magnitudes.push_back(std::abs(values[c]));
             if (c < 3) {
@@ -139,6 +148,41 @@ Statistics statisticsOf(std::span<const std::byte> memory, std::size_t count, co
     statistics.largest = quantile(magnitudes, 0.995);
     statistics.mean = summed > 0 ? sum / double(summed) : 0;
     return statistics;
+}
+
+ImageData imageOf(std::span<const std::byte> memory, glm::uvec2 extent, const TexelLayout& layout) {
+    ImageData image = makeImage(int(extent.x), int(extent.y), int(layout.channels));
+    image.hasOpacity = layout.channels == 4;
+    std::array<float, 4> values;
+    for (std::size_t i = 0; i < image.pixelCount() && readTexel(memory, i, layout, values); ++i)
+        std::copy_n(values.begin(), layout.channels, image.values.begin() + std::ptrdiff_t(i * layout.channels));
+    return image;
+}
+
+Histograms histogramsOf(std::span<const ImageData* const> images, std::uint32_t pick, std::size_t bins) {
+    std::vector<std::vector<float>> picked;
+    std::vector<float> all;
+    for (const ImageData* image : images) {
+        std::vector<float>& numbers = picked.emplace_back();
+        const auto channels = std::size_t(image->channels);
+        for (std::size_t i = 0; i < image->pixelCount(); i += std::max<std::size_t>(1, image->pixelCount() / mostTexels)) {
+            std::array<float, 4> values{0, 0, 0, 0};
+            std::copy_n(image->values.begin() + std::ptrdiff_t(i * channels), std::min<std::size_t>(channels, 4), values.begin());
+            const float value = pickFrom(values, std::uint32_t(channels), pick);
+            if (std::isfinite(value)) numbers.push_back(value);
+        }
+        all.insert(all.end(), numbers.begin(), numbers.end());
+    }
+    Histograms histograms{.low = quantile(all, 0.005), .high = quantile(all, 0.995), .shares = {}};
+    const float scale = float(bins) / std::max(histograms.high - histograms.low, 1e-30f);
+    for (const std::vector<float>& numbers : picked) {
+        std::vector<float>& shares = histograms.shares.emplace_back(bins);
+        for (const float value : numbers) {
+            const float bin = std::clamp((value - histograms.low) * scale, 0.0f, float(bins - 1));
+            shares[std::size_t(bin)] += 1 / float(numbers.size());
+        }
+    }
+    return histograms;
 }
 
 std::string countText(double count) { return scaled(count, 1000, {"", " k", " M", " G"}); }

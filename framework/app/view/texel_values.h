@@ -3,6 +3,7 @@
 #pragma once
 #include <framework/pass/port.h>
 #include <framework/graph/struct_layout.h>
+#include <framework/image/image.h>
 #include <framework/shaders/view/picture.h>
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace lodestir {
 
@@ -38,6 +40,16 @@ struct Statistics {
     double mean = 0;          ///< of all components but opacity
 };
 LODESTIR_API Statistics statisticsOf(std::span<const std::byte> memory, std::size_t count, const TexelLayout& layout, std::uint32_t pick);
+
+/// The numbers of a picture, as an image file has them: the fourth counts as opacity. Of texels that `memory` doesn't reach they are 0.
+LODESTIR_API ImageData imageOf(std::span<const std::byte> memory, glm::uvec2 extent, const TexelLayout& layout);
+
+/// How the picked numbers of up to 65536 evenly spread texels are distributed, for several images over one range. Finite numbers only.
+struct Histograms {
+    float low = 0, high = 0;                 ///< 0.5 % of the numbers of all lie below and above, and count at the ends
+    std::vector<std::vector<float>> shares;  ///< of each image: shares of its numbers, range by range
+};
+LODESTIR_API Histograms histogramsOf(std::span<const ImageData* const> images, std::uint32_t pick, std::size_t bins);
 
 /// "950", "12.3 k", "4.56 M"
 LODESTIR_API std::string countText(double count);

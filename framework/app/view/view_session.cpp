@@ -5,11 +5,11 @@
 #include <framework/app/pixel_report.h>
 #include <framework/app/run_report.h>
 #include <framework/app/view/graph_text.h>
+#include <framework/app/view/port_info.h>
+#include <framework/app/view/smooth.h>
 #include <framework/core/log.h>
-#include <framework/gpu/commands.h>
 #include <framework/gpu/include_closure.h>
 #include <framework/graph/kernel_source.h>
-#include <framework/graph/struct_layout.h>
 #include <framework/image/exr.h>
 #include <framework/image/png.h>
 #include <framework/image/preview.h>
@@ -30,31 +30,23 @@ double millisecondsSince(Clock::time_point start) { return std::chrono::duration
 constexpr std::size_t framesRemembered = 240;
 constexpr std::uint32_t framesBeforeAsked = 8;  // of history behind a pixel that is asked: most of what 20 would hold, in less than half of the time
 
-/// Follows `value`, at once where it is far off.
-void smooth(double& mean, double value) { mean = mean <= 0 || value > 2 * mean || value < 0.5 * mean ? value : 0.8 * mean + 0.2 * value; }
-
 bool sameView(const CameraKey& a, const CameraKey& b) {
     return a.position == b.position && a.target == b.target && a.up == b.up && a.fovy == b.fovy && a.height == b.height &&
            a.aperture == b.aperture && a.focus == b.focus;
 }
 
-/// The fields of a struct that can be looked at, those of its own structs as "outer.inner".
-void collectFields(const std::vector<StructField>& fields, const std::string& prefix, std::size_t base, std::size_t stride, std::vector<PortField>& out) {
-    for (const StructField& field : fields) {
-        const std::string name = prefix + field.name;
-        if (const auto layout = layoutOf(field, base, stride)) out.push_back({name, field.type, *layout});
-        else if (field.count == 0 && !field.members.empty()) collectFields(field.members, name + ".", base + field.offset, stride, out);
-    }
-}
-
 }  // namespace
 
-ViewSession::ViewSession(SessionOptions options, std::shared_ptr<const gpu::Device> device, Publish publish)
-    : options_(std::move(options)), device_(std::move(device)), publish_(std::move(publish)) {}
+ViewSession::ViewSession(SessionOptions options, ComparedFirst first, std::shared_ptr<const gpu::Device> device, Publish publish)
+    : options_(std::move(options)), first_(std::move(first)), device_(std::move(device)), publish_(std::move(publish)), captures_(device_) {}
 
 void ViewSession::tell() {
     status_.undo = history_.undoable();
     status_.redo = history_.redoable();
+    status_.a = sides_.a();
+    status_.compared = sides_.numbers();
+    for (std::string& problem : lost_) status_.problems.push_back(std::move(problem));
+    lost_.clear();
     publish_(status_);
 }
 
@@ -91,6 +83,14 @@ void ViewSession::adjust(Graph& graph) {
     given_ = std::move(given);
 }
 
+/// Tells how far the shaders of a session are.
+std::function<void(std::size_t, std::size_t)> ViewSession::compiling() {
+    return [this](std::size_t done, std::size_t all) {
+        status_.busy = fmt::format("compiling shader {} of {}", std::min(done + 1, all), all);
+        tell();
+    };
+}
+
 bool ViewSession::build() {
     status_.busy = "building";
     tell();
@@ -101,12 +101,9 @@ bool ViewSession::build() {
             SessionParts parts{.device = device_,
                                .scene = session_ && !rereadScene_ ? session_->sharedScene() : nullptr,
                                .adjust = [this](Graph& graph) { adjust(graph); },
-                               .slice = 20,
+                               .slice = slice,
                                .keepAll = true};
-            parts.compiled = [this](std::size_t done, std::size_t all) {
-                status_.busy = fmt::format("compiling shader {} of {}", std::min(done + 1, all), all);
-                tell();
-            };
+            parts.compiled = compiling();
             SessionOptions options = options_;
             if (!shown_.empty()) options.dumps.push_back(shown_);
             std::unique_ptr<Session> next;
@@ -136,7 +133,12 @@ bool ViewSession::build() {
             status_.wallMilliseconds = 0;
             if (shown_.empty()) shown_ = session_->graph().nameOf(session_->graph().show);
             describe();
-            took(report, millisecondsSince(start));
+            const double milliseconds = millisecondsSince(start);
+            askA([&](LiveSide& a) {
+                a.reset();
+                a.frame(*session_, report.frame, captures_);
+            });
+            took(report, milliseconds);
         } catch (const Error&) {
             given_ = given;
             set_ = set;
@@ -147,6 +149,7 @@ bool ViewSession::build() {
     status_.busy.clear();
     watchFiles();
     tell();
+    if (built) compareFirst();
     return built;
 }
 
@@ -154,8 +157,9 @@ bool ViewSession::wantsFrame() const { return session_ && !broken_ && (!status_.
 
 void ViewSession::frame() {
     stepping_ = false;
-    const auto start = Clock::now();
     try {
+        askA([&](LiveSide& a) { a.frame(*session_, session_->runner().nextFrame(), captures_); });
+        const auto start = Clock::now();
         const FrameReport report = session_->runner().run();
         took(report, millisecondsSince(start));
     } catch (const Error& error) {
@@ -193,68 +197,19 @@ void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
     if (!sameView(camera, lastCamera_)) status_.framesStill = 1;
     lastCamera_ = camera;
     status_.camera = {camera, scenePath_.has_value()};
+    if (status_.framesStill == 1) sides_.restartErrors();
     capture();
-}
-
-std::shared_ptr<gpu::Buffer> ViewSession::spareBuffer(std::size_t bytes) {
-    std::erase_if(buffers_, [&](const auto& buffer) { return buffer.use_count() == 1 && buffer->size() < bytes; });
-    for (const auto& buffer : buffers_)
-        if (buffer.use_count() == 1) return buffer;
-    buffers_.push_back(std::make_shared<gpu::Buffer>(*device_, bytes, gpu::Memory::device, "captured port"));
-    return buffers_.back();
 }
 
 void ViewSession::capture() {
     const auto& ports = status_.graph->ports;
     const auto port = std::ranges::find(ports, shown_, &PortInfo::name);
-    if (port == ports.end() || !port->runs || port->extent.x == 0) {
-        status_.picture = {};
-        return;
-    }
-    const std::shared_ptr<gpu::Buffer> buffer = spareBuffer(port->bytes);
-    gpu::runOnce(*device_, [&](gpu::Commands& commands) {
-        commands.barrier();
-        commands.copy(session_->runner().memoryOf(port->source), 0, *buffer, 0, port->bytes);
-    });
-    status_.picture = {.texels = buffer, .port = shown_, .extent = port->extent, .camera = lastCamera_, .frame = status_.nextFrame - 1, .number = ++pictures_};
+    status_.picture = port == ports.end() ? Picture() : captures_.take(session_->runner(), *port, lastCamera_);
+    if (!status_.picture.texels) return;
     status_.statistics.reset();
-    if (!statistics_) return;
-    std::vector<std::byte> copy;
-    std::span<const std::byte> memory(buffer->mapped(), port->bytes);
-    if (!buffer->mapped()) {
-        copy.resize(port->bytes);
-        gpu::readBuffer(*device_, *buffer, 0, copy);
-        memory = copy;
-    }
-    status_.statistics = statisticsOf(memory, std::size_t(port->extent.x) * port->extent.y, layout_, pick_);
-}
-
-PortInfo ViewSession::describePort(const Source& source) const {
-    const Graph& graph = session_->graph();
-    const Port& port = graph.port(source);
-    const glm::uvec2 size = session_->runner().size();
-    PortInfo info{.name = graph.nameOf(source), .doc = std::string(port.doc), .text = {}, .source = source, .fields = {}};
-    info.runs = session_->runner().plan().resourceOf(source.node, source.port) >= 0;
-    info.bytes = bytesOf(graph, source.node, source.port, size);
-    if (port.type.kind == PortType::Kind::image) {
-        info.extent = sizeOf(graph, source.node, source.port, size);
-        info.text = fmt::format("{} {}x{}", factsOf(port.format).name, info.extent.x, info.extent.y);
-        info.fields.push_back({"", std::string(factsOf(port.format).name), layoutOf(port.format)});
-        return info;
-    }
-    const std::uint32_t count = countOf(graph, source.node, source.port, size);
-    info.text = fmt::format("{}  {} x {} B", port.type.text(), count, port.type.size);
-    const std::uint32_t pixels = size.x * size.y;
-    if (pixels == 0 || count % pixels != 0 || count / pixels > 4) return info;
-    try {  // several elements a pixel lie side by side: the first is shown
-        const std::size_t stride = port.type.size * (count / pixels);
-        const Plugin& plugin = *graph.nodes[std::size_t(source.node)].plugin;
-        collectFields(structFields(port.type.name, Path(port.type.header), includeFolders(plugin), port.type.size), "", 0, stride, info.fields);
-        if (!info.fields.empty()) info.extent = size;
-    } catch (const Error&) {
-        info.fields.clear();  // a struct that only its own shaders understand: named, not shown
-    }
-    return info;
+    const glm::uvec2 extent = status_.picture.extent;
+    if (statistics_) status_.statistics = statisticsOf(captures_.bytesOf(status_.picture), std::size_t(extent.x) * extent.y, layout_, pick_);
+    measure(status_.paused);
 }
 
 void ViewSession::describe() {
@@ -287,7 +242,7 @@ void ViewSession::describe() {
         for (std::size_t p = 0; p < node.pass->ports.size(); ++p) {
             const Port& port = *node.pass->ports[p];
             if (port.isInput() || port.role == Port::Role::scratch || port.type.kind == PortType::Kind::handle) continue;
-            info->ports.push_back(describePort({int(n), int(p), false}));
+            info->ports.push_back(describePort(graph, session_->runner(), {int(n), int(p), false}));
         }
     }
     describeWires(*info);
@@ -337,6 +292,8 @@ void ViewSession::watchFiles() {
     std::set<Path> files{std::filesystem::absolute(options_.graph)};
     if (session_) {
         for (const Path& file : session_->runner().shaderFiles()) files.insert(file);
+        if (sides_.live())
+            for (const Path& file : sides_.live()->shaderFiles()) files.insert(file);
         files.insert(session_->scene().file);
         for (const GraphNode& node : session_->graph().nodes) {
             if (!*node.plugin->shader) continue;
@@ -372,8 +329,9 @@ void ViewSession::reloadChanged() {
     tell();
     attempt([&] {
         asking_.reset();
-        if (session_->runner().reloadShaders(stale_) > 0) {
-            session_->runner().reset();
+        const int anew = session_->runner().reloadShaders(stale_) + (sides_.live() ? sides_.live()->reloadShaders(stale_) : 0);
+        if (anew > 0) {
+            resetBoth();
             status_.framesStill = 0;
         }
         ++status_.reloads;
@@ -393,6 +351,7 @@ void ViewSession::changedByHand(bool restarts) {
 
 void ViewSession::pause(bool paused) {
     status_.paused = paused;
+    measure(paused);
     tell();
 }
 
@@ -400,7 +359,7 @@ void ViewSession::step() { stepping_ = true; }
 
 void ViewSession::resetHistory() {
     if (!session_) return;
-    session_->runner().reset();
+    resetBoth();
     changedByHand(true);
 }
 
@@ -469,6 +428,7 @@ bool ViewSession::become(const HandMade& wanted) {
     options_.changes.set = wanted.settings;
     set_ = wanted.set;
     if (!otherGraph && !apply(set_)) {
+        if (sides_.live()) resetBoth();
         changedByHand(true);
         return true;
     }
@@ -636,9 +596,10 @@ void ViewSession::save(const Path& folder) {
     attempt([&] {
         const Source source = findSource(session_->graph(), shown_);
         const Path path = folder / fmt::format("{}.{}", shown_, status_.nextFrame - 1);
-        dumpPort(*session_, source, path);
+        dumpPort(session_->graph(), session_->runner(), source, path);
         const bool image = session_->graph().port(source).type.kind == PortType::Kind::image;
         if (image) writePng(path.string() + ".png", preview(session_->runner().readImage(source)));
+        if (status_.a.kind == SideA::Kind::live && status_.a.picture.texels) sides_.live()->save(folder);
         status_.note = fmt::format("wrote {}{}", path.string(), image ? ".exr and .png" : ".npy");
         log::note("{}", status_.note);
     });

@@ -2,6 +2,7 @@
 // What a viewer shows, kept running: a session whose files may change, with a camera and parameters set by hand. Used by one thread; no window.
 #pragma once
 #include <framework/app/session.h>
+#include <framework/app/view/compared_sides.h>
 #include <framework/app/view/edit_history.h>
 #include <framework/app/view/view_state.h>
 #include <framework/core/file_watch.h>
@@ -12,13 +13,21 @@
 
 namespace lodestir {
 
+/// What is compared from the start.
+struct ComparedFirst {
+    Path graph;                          ///< that runs as A; empty: none
+    std::optional<std::string> variant;  ///< of it
+    Path image;                          ///< a reference; empty: none
+};
+
 class ViewSession {
 public:
     using Publish = std::function<void(const ViewStatus&)>;
     /// `publish` is called after each frame and whenever something else is to be told.
-    ViewSession(SessionOptions options, std::shared_ptr<const gpu::Device> device, Publish publish);
+    ViewSession(SessionOptions options, ComparedFirst first, std::shared_ptr<const gpu::Device> device, Publish publish);
 
-    /// Anew from the files; what ran before goes on until its successor has rendered a frame. Problems go to the status, and it returns false.
+    /// Anew from the files; what ran before goes on until its successor has rendered a frame. Problems go to the status, and it returns false. Error
+    /// where what is to be compared first can't be.
     bool build();
     void frame();                     ///< the next one
     bool wantsFrame() const;          ///< something runs, and isn't paused or broken
@@ -44,6 +53,14 @@ public:
     void redo();
     void dismiss();     ///< what was told of an edit is read
     void offerEdits();  ///< from now on the status says what edits there are, which takes all libraries of passes
+
+    /// A, which what runs (B) is compared with.
+    void keepAsA(const Picture& picture, const TexelLayout& layout);
+    void runAsA();                                                       ///< what runs now goes on as A
+    void runAsA(const Path& graph, const std::optional<std::string>& variant);  ///< as its file has it
+    void compareWithImage(const Path& file);
+    void releaseA();
+    void makeStudy(const Path& folder);  ///< a study file of both sides, with all that it needs
 
     /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
@@ -71,10 +88,17 @@ private:
     void watchFiles();
     void changedByHand(bool restarts);
     void tell();
-    PortInfo describePort(const Source& source) const;
-    std::shared_ptr<gpu::Buffer> spareBuffer(std::size_t bytes);
+    std::function<void(std::size_t, std::size_t)> compiling();
+    void compareFirst();
+    SideGraph sideGraph() const;
+    SideGraph sideGraph(const Path& graph, const std::optional<std::string>& variant) const;
+    void startA(SideGraph graph);
+    void askA(const std::function<void(LiveSide&)>& part);
+    void resetBoth();
+    void measure(bool always);
 
     SessionOptions options_;
+    ComparedFirst first_;
     std::shared_ptr<const gpu::Device> device_;
     Publish publish_;
     std::unique_ptr<Session> session_;
@@ -90,10 +114,11 @@ private:
     EditHistory history_;
     std::vector<PassType> types_;              ///< all, once edits are offered
     bool statistics_ = false, broken_ = false, stepping_ = false, rereadScene_ = false;
-    std::uint64_t pictures_ = 0;
     std::vector<FrameReport> reports_;         ///< of the session's last frames
     CameraKey lastCamera_;
-    std::vector<std::shared_ptr<gpu::Buffer>> buffers_;
+    Captures captures_;
+    ComparedSides sides_;
+    std::vector<std::string> lost_;            ///< problems that A was let go for, to be told
 };
 
 }  // namespace lodestir

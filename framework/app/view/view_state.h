@@ -96,6 +96,30 @@ struct Picture {
     std::uint64_t number = 0;  ///< tells pictures apart
 };
 
+/// What the picture that is made now, B, is compared with.
+struct SideA {
+    enum class Kind { nothing, kept, image, live };
+    Kind kind = Kind::nothing;
+    std::string what;         ///< its graph, variant, port and frame, or its file
+    Picture picture;          ///< without texels: not made yet
+    TexelLayout layout;
+    double milliseconds = 0;  ///< of a frame on the device, where it is live
+};
+
+/// How far a picture was from another, so many frames after anything was changed.
+struct ErrorPoint {
+    std::uint32_t frames = 0;
+    double mse = 0, relmse = 0;  ///< as image/metrics.h defines them
+};
+
+/// How A and B differ.
+struct ComparedNumbers {
+    std::string reference;         ///< what errors are those against: A, or an image file
+    std::string without;           ///< why there are none; empty: there are
+    std::vector<ErrorPoint> a, b;  ///< of some frames since anything was changed, rising, the latest last; of A only against an image
+    Histograms histograms;         ///< of A and B
+};
+
 /// The camera, and whether it is the viewer's own or the scene's.
 struct CameraState {
     CameraKey key;
@@ -143,6 +167,8 @@ struct ViewStatus {
     std::string undo, redo;             ///< the edits that would be taken back and done again; empty: none
     std::optional<Statistics> statistics;
     std::shared_ptr<const PixelTold> told;  ///< of the pixel that was asked last; nullptr: none
+    SideA a;
+    std::shared_ptr<const ComparedNumbers> compared;  ///< nullptr: nothing is compared
     std::string note;                   ///< what was done last: "wrote out/display.12.exr"
     std::string failure;                ///< the renderer is finished, and why
 };

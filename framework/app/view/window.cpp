@@ -40,6 +40,11 @@ Window::Window(glm::ivec2 size, const std::string& title) {
         if (action == GLFW_PRESS) window.keys_.push_back({key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
     });
     glfwSetCharCallback(window_, note);
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** names) {
+        Window& window = *static_cast<Window*>(glfwGetWindowUserPointer(w));
+        window.input_ = true;
+        window.drops_.insert(window.drops_.end(), names, names + count);
+    });
     glfwSetFramebufferSizeCallback(window_, note);
     glfwSetWindowRefreshCallback(window_, note);
 }

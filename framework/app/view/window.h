@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,12 +38,15 @@ public:
     };
     /// The keys that went down since this was last asked, even those that are up again.
     std::vector<Key> takeKeys() { return std::exchange(keys_, {}); }
+    /// Files that were dropped on the window since this was last asked.
+    std::vector<std::filesystem::path> takeDrops() { return std::exchange(drops_, {}); }
     static void wake();  ///< ends the wait; from any thread
 
 private:
     GLFWwindow* window_ = nullptr;
     bool input_ = false;
     std::vector<Key> keys_;
+    std::vector<std::filesystem::path> drops_;
     Clock::time_point taken_ = Clock::now();  ///< when the last look for input ended
 };
 
