@@ -43,7 +43,7 @@ void judge(const OrderedJson& path, ToldPath& told) {
     const auto reason = [&](const OrderedJson& place) {
         for (const char* why : {"failed", "hidden", "black", "none"})
             if (const OrderedJson* text = member(place, why); text && text->is_string()) {
-                told.text = text->get<std::string>();
+                told.text = (why == std::string_view("hidden") ? "hidden: " : "") + text->get<std::string>();
                 told.failed = true;
             }
     };

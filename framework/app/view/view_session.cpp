@@ -2,7 +2,6 @@
 #include <framework/app/view/view_session.h>
 
 #include <framework/app/dump.h>
-#include <framework/app/pixel_report.h>
 #include <framework/app/run_report.h>
 #include <framework/app/view/graph_text.h>
 #include <framework/app/view/port_info.h>
@@ -28,7 +27,6 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
 constexpr std::size_t framesRemembered = 240;
-constexpr std::uint32_t framesBeforeAsked = 8;  // of history behind a pixel that is asked: most of what 20 would hold, in less than half of the time
 
 bool sameView(const CameraKey& a, const CameraKey& b) {
     return a.position == b.position && a.target == b.target && a.up == b.up && a.fovy == b.fovy && a.height == b.height &&
@@ -543,51 +541,6 @@ void ViewSession::show(const std::string& port, const TexelLayout& layout, std::
     }
     if (broken_) return;
     capture();
-    tell();
-}
-
-void ViewSession::askPixel(glm::ivec2 pixel) {
-    const glm::ivec2 shown(status_.picture.extent);
-    if (!session_ || broken_ || shown.x == 0) return;
-    attempt([&] {
-        const auto setAlike = [&](Graph& graph) {
-            for (const GraphNode& node : session_->graph().nodes)
-                for (const Parameter* parameter : node.pass->parameters)
-                    for (Parameter* same : graph.nodes[std::size_t(graph.find(node.name))].pass->parameters)
-                        if (same->name == parameter->name) same->value = parameter->value;
-        };
-        status_.busy = "asking the pixel";
-        tell();
-        if (!asking_) {
-            SessionParts parts{.device = device_, .scene = session_->sharedScene(), .adjust = setAlike, .slice = 20, .probe = true};
-            parts.compiled = [this](std::size_t done, std::size_t all) {
-                status_.busy = fmt::format("asking the pixel: compiling shader {} of {}", std::min(done + 1, all), all);
-                tell();
-            };
-            asking_ = std::make_unique<Session>(options_, parts);
-        }
-        setAlike(asking_->graph());
-        Runner& runner = asking_->runner();
-        const std::uint32_t frame = status_.nextFrame - 1, first = frame - std::min(frame, framesBeforeAsked);
-        runner.reset();
-        runner.setFrame(first);
-        for (std::uint32_t f = first; f < frame; ++f) {
-            status_.busy = fmt::format("asking the pixel: frame {} of {}", f - first + 1, frame - first + 1);
-            tell();
-            runner.run();
-        }
-        pixel = pixel * glm::ivec2(runner.size()) / shown;  // of the frame, of which what is shown may be a half
-        const std::vector<ProbedDispatch> told = runner.probe(pixel);
-        auto passes = std::make_shared<const nlohmann::ordered_json>(pixelReport(*asking_, told, pixel));
-        std::vector<ToldPath> paths = pathsIn(*passes);
-        status_.told = std::make_shared<const PixelTold>(PixelTold{pixel, runner.size(), frame, first, std::move(passes), std::move(paths)});
-    });
-    status_.busy.clear();
-    tell();
-}
-
-void ViewSession::forgetPixel() {
-    status_.told.reset();
     tell();
 }
 
