@@ -90,6 +90,28 @@ TEST_F(LiveSides, ShareCameraAndFrames) {
     EXPECT_TRUE(viewer.running());
 }
 
+// If this fails, a scene that is saved, or another size, is seen by one side only.
+TEST_F(LiveSides, FollowTheSceneAndTheSize) {
+    OrderedJson scene = readJson(sourceFolder / "scenes/cornell.json");
+    write("scene.json", scene);
+    const Path graph = writeGraph();
+    Viewer viewer(*display, folder, graph, {"--compare", graph.string() + ":dim", "--scene", (folder / "scene.json").string()});
+    viewer.await("both sides", runsBoth, 120s);
+    scene["camera"]["fovy"] = 30;
+    write("scene.json", scene);
+    const OrderedJson seen = viewer.await("another camera", [](const OrderedJson& r) { return r["builds"] == 2 && runsBoth(r); }, 120s);
+    EXPECT_NEAR(seen["a"]["camera"]["fovy"].get<double>(), 30, 1e-3);
+    EXPECT_EQ(seen["a"]["camera"], seen["b"]["camera"]);
+    viewer.click("size");
+    viewer.click("size: 240x135");
+    const OrderedJson large = viewer.await("another size", [](const OrderedJson& r) { return r["builds"] == 3 && runsBoth(r) && hasErrors(r); }, 120s);
+    EXPECT_EQ(large["a"]["frame"], large["b"]["frame"]);
+    const auto [a, b] = save(viewer, pause(viewer));
+    EXPECT_EQ(readExrFile(a).image.width, 240);
+    EXPECT_EQ(readExrFile(b).image.width, 240);
+    EXPECT_TRUE(viewer.running());
+}
+
 // What runs is split: both sides are the same until B is edited, and A stays as it was, whatever B becomes.
 TEST_F(LiveSides, AGoesOnAsItWas) {
     Viewer viewer(*display, folder, writeGraph(), {});

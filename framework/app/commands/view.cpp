@@ -11,6 +11,7 @@
 #include <framework/core/log.h>
 
 #include <memory>
+#include <optional>
 
 namespace lodestir {
 namespace {

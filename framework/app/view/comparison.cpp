@@ -20,6 +20,7 @@ void Comparison::draw(const Rectangle& area, const std::string& what, bool free)
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float left = float(area.corner.x), right = left + float(area.size.x), top = float(area.corner.y), bottom = top + float(area.size.y);
     const auto name = [&](const std::string& text, float x, bool endsThere) {
+        if (!free) return;
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const ImVec2 corner{endsThere ? x - size.x - 10 : x + 10, top + 10};
         list.AddRectFilled({corner.x - 6, corner.y - 4}, {corner.x + size.x + 6, corner.y + size.y + 4}, IM_COL32(12, 13, 15, 200), 3);

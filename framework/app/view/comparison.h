@@ -21,7 +21,7 @@ public:
     void turnTo(Side side) { side_ = side; }
     void turn();                            ///< to the next side
 
-    /// The line between the sides, which the mouse moves where it is `free`, and the names of both. `what`: of B.
+    /// The line between the sides; with the names of both, and for the mouse to move, where nothing lies over the picture (`free`). `what`: of B.
     void draw(const Rectangle& area, const std::string& what, bool free);
     /// The picture whose difference is to be shown to `now` of that layout; none where that isn't asked for, or they aren't alike.
     const Picture* subtracted(const Picture& now, const TexelLayout& layout) const;

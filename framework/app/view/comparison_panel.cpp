@@ -73,7 +73,8 @@ void ComparisonPanel::drawSides(const ViewStatus& status) {
 
 void ComparisonPanel::drawErrors(const ComparedNumbers& numbers) {
     ImGui::Dummy({0, 2});
-    quietText("errors against " + numbers.reference + ", since a change");
+    quietText("errors against " + numbers.reference);
+    tip("since anything was changed");
     if (!numbers.without.empty()) {
         ImGui::TextWrapped("none: %s", numbers.without.c_str());
     } else {
@@ -82,7 +83,7 @@ void ComparisonPanel::drawErrors(const ComparedNumbers& numbers) {
             mark_(name);
             tip(std::string(about) + "\nclick: in the plot");
             ImGui::PushFont(figureFont());
-            for (const auto& [curve, color, x] : {std::tuple(&numbers.a, colorOfA(), 82.0f), std::tuple(&numbers.b, colorOfB(), 182.0f)}) {
+            for (const auto& [curve, color, x] : {std::tuple(&numbers.a, colorOfA(), 104.0f), std::tuple(&numbers.b, colorOfB(), 196.0f)}) {
                 if (curve->empty()) continue;
                 ImGui::SameLine(x);
                 ImGui::TextColored(color, "%s", errorText(curve->back().*metric).c_str());

@@ -275,8 +275,11 @@ void Panels::drawOutput(const ViewStatus& status) {
     ImGui::SetNextItemWidth(third);
     static constexpr glm::uvec2 sizes[] = {{240, 135}, {320, 180}, {480, 270}, {640, 360}, {960, 540}, {1280, 720}, {1920, 1080}};
     if (ImGui::BeginCombo("##size", fmt::format("{}x{}", graph_->size.x, graph_->size.y).c_str())) {
-        for (const glm::uvec2 size : sizes)
-            if (ImGui::Selectable(fmt::format("{}x{}", size.x, size.y).c_str(), size == graph_->size)) send([size](ViewSession& s) { s.resize(size); });
+        for (const glm::uvec2 size : sizes) {
+            const std::string text = fmt::format("{}x{}", size.x, size.y);
+            if (ImGui::Selectable(text.c_str(), size == graph_->size)) send([size](ViewSession& s) { s.resize(size); });
+            mark("size: " + text);
+        }
         ImGui::EndCombo();
     }
     mark("size");

@@ -169,7 +169,7 @@ void Panels::drawHelp() {
                                                {"Space   N", "pause; one frame"},
                                                {"R", "restart history and accumulation"},
                                                {"A", "keep what is shown, to compare; let it go"},
-                                               {"L", "what runs goes on as A beside what is edited; stop it"},
+                                               {"L", "what runs goes on as A, beside what is edited"},
                                                {"B", "A | B with a line to drag, A, B, A - B"},
                                                {"E", "errors of B, and of A against a reference image"},
                                                {"G", "the graph: its passes and edges, to be edited"},

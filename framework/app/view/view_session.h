@@ -56,7 +56,7 @@ public:
 
     /// A, which what runs (B) is compared with.
     void keepAsA(const Picture& picture, const TexelLayout& layout);
-    void runAsA();                                                       ///< what runs now goes on as A
+    void runAsA();                                                              ///< what runs now goes on as A
     void runAsA(const Path& graph, const std::optional<std::string>& variant);  ///< as its file has it
     void compareWithImage(const Path& file);
     void releaseA();
