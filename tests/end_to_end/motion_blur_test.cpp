@@ -177,9 +177,8 @@ TEST_F(BlurredReuse, KeepsTheMean) {
         EXPECT_EQ(result.verdict, Verdict::unbiased) << what << ": " << result.reason;
         EXPECT_LE(result.halfWidth, 0.012) << what;
     };
-    keeps("splatted", graph("restir_lod.json", nullptr, near()));
-    keeps("splatted to 2 parts", graph("restir_lod.json", nullptr, with(near(), {{"temporal.partitions", Json(2)}})));
-    keeps("splatted to 4 parts", graph("restir_lod.json", nullptr, with(near(), {{"temporal.partitions", Json(4)}})));
+    for (const int splats : {1, 2, 4})
+        keeps(("splatted " + std::to_string(splats)).c_str(), graph("restir_lod.json", nullptr, with(near(), {{"temporal.partitions", Json(splats)}})));
     keeps("times of pixels", graph("restir_lod.json", "frame jitter", near()));
     keeps("reprojected", graph("restir_pt.json", nullptr, near()));
 }

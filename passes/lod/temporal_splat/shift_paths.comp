@@ -113,6 +113,8 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     }
     r.confidence = cappedConfidence(r.confidence, historyCap(way == FORTH ? r.landing : pixel));
     if (r.confidence == 0) return shiftOfNothing();
+    // The copies of a path share its confidence: where nothing moves they are worth no more than it, and counted in full they outweigh what is new.
+    if (splats) r.confidence /= float(splatsOfPath());
     PROBE_SHIFT(way, splats || way == BACK ? pixel : r.before, r.landing);
     PROBE(jacobianOfMap, mapped.jacobian);
     PROBE(jacobianOnFilm, jacobian / mapped.jacobian);

@@ -2,9 +2,8 @@
 // Resamples the pixel's own path with those that landed in it, and with the backup.
 //
 // All paths of last frame together are one technique: a path of this frame has one place on last frame's film, in one pixel, and one time of last
-// frame's exposure. So weights are divided neither by the number of paths that land here nor by that of a path's splats (Liu et al. 2025, Reservoir
-// Splatting). With a backup, the own path is compared with each of the two techniques in turn, pairwise, because neither's density of the other's path
-// is known.
+// frame's exposure. So weights are not divided by the number of paths that land here (Liu et al. 2025, Reservoir Splatting). With a backup, the own path
+// is compared with each of the two techniques in turn, pairwise, because neither's density of the other's path is known.
 #version 460
 #include "pass.glsl"
 #include "backup.glsl"
