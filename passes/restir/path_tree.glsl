@@ -75,8 +75,8 @@ void treesStart(inout PathTree p) {
     p.kept = emptyReservoir(1.0);
 }
 
-/// `ray`: the camera ray of the place `film` inside the pixel through `lens`.
-void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
+/// `ray`: the camera ray of the place `film` inside the pixel through `lens` at a time of the exposure.
+void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, float time, Ray ray) {
     p.seed = seed;
     p.vertex = 0u;
     p.toLight = false;
@@ -95,7 +95,7 @@ void treeStart(inout PathTree p, uvec2 seed, vec2 film, vec2 lens, Ray ray) {
     p.suffix = vec3(1.0);
     p.rc = TrianglePlace(vec2(0.0), vec2(0.0));
     p.spine = emptyReservoir(1.0);
-    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), 0.0, vec2(0.0), p.rc, 0u);
+    p.first = SampleHit(PrimaryHit(NONE, NONE, vec2(0.0), film, lens), time, vec2(0.0), p.rc, 0u);
     p.ray = ray;
     p.from = p.ray.origin;
     p.onward = p.ray;

@@ -11,6 +11,7 @@
 #include "restir/jacobian.glsl"
 #include "restir/light_number.glsl"
 #include "restir/rules.h"
+#include "world/exposure.glsl"
 #include "world/primary_hit.h"
 #include "world/ray_levels.glsl"
 
@@ -23,6 +24,9 @@ vec3 arrival(World w, Hit hit, vec3 from, vec3 direction) {
 
 /// By which the rays of a path choose levels in pixel `p`: it goes with the camera sample, which is the path's own or the pixel's.
 uint pathNumber(ShiftRules rules, World w, ivec2 p, uvec2 seed) { return rules.pixelCamera != 0u ? numberOfPixel(w, p) : numberOfPath(seed); }
+
+/// When rays of a path whose own time is `time` see the scene in pixel `p`: likewise.
+float pathTime(ShiftRules rules, World w, ivec2 p, float time) { return rules.pixelCamera != 0u ? timeOf(numberOfPixel(w, p)) : time; }
 
 /// The geometry term of the Jacobian per barycentric area of x_k instead of per area: barycentrics are what a shift keeps, so that a triangle
 /// that grew from one frame to the next is accounted for.

@@ -85,7 +85,8 @@ bool shiftStart(inout Shift t, World w, ShiftRules rules, ShiftTask task, uvec2 
     if (t.known) t.hit.hit = task.first;
     else t.hit.hit = PrimaryHit(NONE, NONE, vec2(0.0), task.base.hit.film, task.base.hit.lens);
     t.number = pathNumber(rules, w, task.to, task.path.seed);
-    w = atTime(w, t.number);
+    w = atTime(w, pathTime(rules, w, task.to, task.base.time));
+    t.hit.time = w.time;
     t.state = task.carried ? SHIFT_SEE : SHIFT_WALK;
     t.vertex = 0u;
     t.resumes = false;

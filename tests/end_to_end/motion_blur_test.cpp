@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Motion blur: what the shutter sees is the mean of what is there while it is open, whoever traces it, and reuse keeps that mean, also where objects take
 // another level meanwhile.
+#include "known_answer.h"
 #include "planted_faults.h"
 #include "program.h"
 #include "render.h"
 #include "sheets.h"
 #include "shift_session.h"
-
-#include <framework/study/ensemble/ensemble.h>
 
 namespace lodestir::test {
 namespace {
@@ -124,6 +123,27 @@ TEST_F(MotionBlur, BodiesAgree) {
     EXPECT_NE(refused.err.find(reason), std::string::npos) << refused.err;
 }
 
+// All exposures are the same, but not their parts: what follows the reconnection vertex of a path is another thing at another time, and is walked anew.
+TEST_F(MotionBlur, WalksOnBetweenParts) {
+    Frames frames(turning(2), {32, 18},
+                  {{"scene", {{"type", "scene"}, {"set", {{"shutter", 1}, {"animate", false}, {"pose", 1}}}}},
+                   {"hits", hitsNode()},
+                   {"initial", initialNode({{"bounces", 3}})},
+                   {"temporal", node("temporal_splat", pathsOf("initial", "initial"), {{"backup", 0}})},
+                   {"shade", shadeNode("temporal")}},
+                  {"shade.color"});
+    const auto rays = [&](int splats, const char* suffix) {
+        frames.set("temporal.partitions", Json(splats));
+        frames.set("temporal.suffix", Json(suffix));
+        frames.restart(0);
+        frames.run(2);
+        return frames.rays("temporal");
+    };
+    EXPECT_EQ(rays(1, "automatic"), rays(1, "kept"));
+    EXPECT_EQ(rays(3, "automatic"), rays(3, "walked"));
+    EXPECT_NE(rays(3, "kept"), rays(3, "walked")) << "nothing follows, and the test asks nothing";
+}
+
 /// Reuse between exposures, one of which sees a bowl take another level.
 class BlurredReuse : public MotionBlur {
 protected:
@@ -138,11 +158,14 @@ protected:
                               .renderer = {.passes = std::move(libraries), .device = {}, .rays = {}},
                               .device = sharedDevice()});
     }
-    static std::vector<Setting> settings() {
-        return {{"scene.shutter", Json(1)}, {"initial.bounces", Json(3)}, {"initial.candidates", Json(2)}, {"spatial.radius", Json(4)}};
+    static std::vector<Setting> settings() { return {{"scene.shutter", Json(1)}, {"initial.bounces", Json(3)}, {"initial.candidates", Json(2)}}; }
+    static std::vector<Setting> near() { return with(settings(), {{"spatial.radius", Json(4)}}); }
+    static std::vector<Setting> with(std::vector<Setting> set, const std::vector<Setting>& more) {
+        set.insert(set.end(), more.begin(), more.end());
+        return set;
     }
-    static StudyGraph graph(const char* file, std::optional<std::string> variant, std::vector<Setting> set) {
-        return StudyGraph{.graph = sourceFolder / "graphs" / file, .variant = variant, .set = std::move(set), .port = {}, .where = {}};
+    static StudyGraph graph(const char* file, const char* variant, std::vector<Setting> set) {
+        return studyGraph(sourceFolder / "graphs" / file, variant, std::move(set));
     }
 };
 
@@ -154,22 +177,126 @@ TEST_F(BlurredReuse, KeepsTheMean) {
         EXPECT_EQ(result.verdict, Verdict::unbiased) << what << ": " << result.reason;
         EXPECT_LE(result.halfWidth, 0.012) << what;
     };
-    keeps("splatted", graph("restir_lod.json", {}, settings()));
-    keeps("times of pixels", graph("restir_lod.json", "frame jitter", settings()));
-    keeps("reprojected", graph("restir_pt.json", {}, settings()));
+    for (const int splats : {1, 2, 4})
+        keeps(("splatted " + std::to_string(splats)).c_str(), graph("restir_lod.json", nullptr, with(near(), {{"temporal.partitions", Json(splats)}})));
+    keeps("times of pixels", graph("restir_lod.json", "frame jitter", near()));
+    keeps("reprojected", graph("restir_pt.json", nullptr, near()));
 }
 
 // Paths of last frame land where their first hits are when the shutter opens.
 TEST_F(BlurredReuse, FindsPathsThatLandEarly) {
-    const std::vector<Fault> faults{{"splat_early", "temporal_splat", "shift_paths.comp", "    to = atTime(to, numbers.to);\n", ""}};
+    const std::vector<Fault> faults{{"splat_early", "temporal_splat", "shift_paths.comp",
+                                    "    to = atTime(to, pathTime(rules(), to, there, hit.time));\n", ""}};
     plant(folder.path, faults);
     ASSERT_FALSE(HasFailure());
     StudyGraph technique = graph("restir_lod.json", "no spatial", settings());
-    technique.set.pop_back();
     technique.patches = {Json::parse(R"({ "passes": { "temporal": { "type": "splat_early" } } })", "patch")};
     const EnsembleResult result = judge(48, {folder.path}).judge(technique);
     std::printf("landing early: %+.2f %% +- %.2f %%\n", 100 * (result.energy[0] / result.referenceEnergy[0] - 1), 100 * result.halfWidth);
     EXPECT_EQ(result.verdict, Verdict::biased) << result.reason;
+}
+
+/// A black square flies and turns over a bright floor while the camera flies after it and climbs: how bright each pixel is takes no light transport. A
+/// point of the floor is hidden at some times only, so a path has to be weighed by the one time of last frame that it can come from.
+class Flight : public Sheets {
+protected:
+    static constexpr int frame = 4, framesPerSecond = 16;
+    static constexpr glm::ivec2 size{64, 32};
+    static constexpr glm::dvec3 floorColor{0.7, 0.6, 0.5}, moveTo{12, 0, 5}, up{0, 0, -1};
+    static constexpr double fovy = 40;
+
+    static glm::dvec3 eye(double frames) { return {2.6 + 0.2 * frames, 6 + 0.125 * frames, 0.6 + 0.18 * frames}; }
+    static glm::dmat3x4 squareToWorld(int frames) {  // rows
+        const double seconds = double(frames) / framesPerSecond, turn = glm::radians(40.0) * seconds;
+        return {std::cos(turn), 0, std::sin(turn), moveTo.x * seconds, 0, 1, 0, 0, -std::sin(turn), 0, std::cos(turn), moveTo.z * seconds};
+    }
+    static bool hides(const glm::dmat3x4& toWorld, const glm::dvec3& from, const glm::dvec3& direction) {
+        const glm::dvec3 at = from + direction * ((1 - from.y) / direction.y);
+        const glm::dmat2 turn(toWorld[0][0], toWorld[2][0], toWorld[0][2], toWorld[2][2]);
+        const glm::dvec2 local = glm::inverse(turn) * (glm::dvec2(at.x, at.z) - glm::dvec2(toWorld[0][3], toWorld[2][3]));
+        return std::max(std::abs(local.x), std::abs(local.y)) < 1;
+    }
+    static BlockMeans answer() {
+        constexpr int film = 4, places = film * film, times = 48;
+        ImageData image = makeImage(size.x, size.y, 3);
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                int seen = 0;
+                for (int i = 0; i < places * times; ++i) {
+                    const double time = (i + 0.5) / (places * times), half = std::tan(glm::radians(fovy) / 2);
+                    const glm::dvec2 place((i % film + 0.5) / film, (i / film % film + 0.5) / film);
+                    const double u = 2 * (x + place.x) / size.x - 1, v = 1 - 2 * (y + place.y) / size.y;
+                    const glm::dvec3 direction = glm::dvec3(0, -1, 0) + u * half * size.x / size.y * glm::dvec3(1, 0, 0) + v * half * up;
+                    seen += hides(squareToWorld(frame) * (1 - time) + squareToWorld(frame + 1) * time, eye(frame + time), direction) ? 0 : 1;
+                }
+                for (int c = 0; c < 3; ++c) image.at(x, y, c) = float(floorColor[c] * seen / (places * times));
+            }
+        return known(image);
+    }
+
+    EnsembleJudge judge(std::vector<Path> libraries = {}) {
+        writeLevels(folder.path, "floor", {{.cells = 1, .place = [](glm::dvec2 p) { return glm::dvec3(40 * p.x - 20, 0, 40 * p.y - 20); }}}, {.unlit = true});
+        writeLevels(folder.path, "square", {{.cells = 1, .place = [](glm::dvec2 p) { return flat(p) + glm::dvec3(0, 1, 0); }}}, {.moveTo = moveTo});
+        const auto key = [](int at) {
+            const glm::dvec3 from = eye(at);
+            return OrderedJson{{"frame", at}, {"position", {from.x, from.y, from.z}}, {"target", {from.x, 0, from.z}}};
+        };
+        OrderedJson camera = key(0);
+        camera.erase("frame");
+        camera.update({{"up", {0, 0, -1}}, {"fovy", fovy}, {"keyframes", {key(0), key(8)}}});
+        const Path scene = write("flight", {"floor", "square"}, OrderedJson::array(),
+                                 {{"environment", {{"type", "constant"}, {"color", {0, 0, 0}}}},
+                                  {"lights", OrderedJson::array()},
+                                  {"animation", {{"framesPerSecond", framesPerSecond}}},
+                                  {"camera", camera}});
+        return EnsembleJudge({.scene = scene,
+                              .size = size,
+                              .warmup = frame,
+                              .frame = frame,
+                              .runs = 64,
+                              .reference = studyGraph(graphs / "path_tracer.json", "no accumulation", {{"scene.shutter", Json(1)}, {"trace.bounces", Json(0)}}),
+                              .referenceSamples = 256,
+                              .renderer = {.passes = std::move(libraries), .device = {}, .rays = {}},
+                              .device = sharedDevice()});
+    }
+    static StudyGraph splatted(int parts, double backup) {
+        return studyGraph(graphs / "restir_lod.json", "no spatial",
+                          {{"scene.shutter", Json(1)}, {"initial.bounces", Json(0)}, {"temporal.partitions", Json(parts)}, {"temporal.backup", Json(backup)}});
+    }
+    static EnsembleResult judgeFlight(const std::string& name, const BlockMeans& runs) {
+        static const BlockMeans expected = answer();
+        return judgeByAnswer(name.c_str(), runs, expected, 0.005);
+    }
+
+    inline static const Path graphs = sourceFolder / "graphs";
+};
+
+TEST_F(Flight, SplatsFindTheAnswer) {
+    EnsembleJudge judged = judge();
+    const EnsembleResult traced = judgeFlight("path tracing", judged.reference());
+    EXPECT_EQ(traced.verdict, Verdict::unbiased) << traced.reason;
+    for (const double backup : {0.0, 0.5})
+        for (const int parts : {1, 2, 3, 4}) {
+            const std::string name = std::to_string(parts) + (parts == 1 ? " part" : " parts") + (backup > 0 ? ", backup" : "");
+            const EnsembleResult result = judgeFlight(name, judged.measure(splatted(parts, backup)));
+            EXPECT_EQ(result.verdict, Verdict::unbiased) << name << ": " << result.reason;
+        }
+}
+
+// Each splat counts as a whole path; all paths are thought to be splats to the first part.
+TEST_F(Flight, FindsFaultsOfParts) {
+    const std::vector<Fault> faults{
+        {"splat_whole", "temporal_splat", "shift_paths.comp", "way == FORTH ? 1 / float(splatsOfPath()) : float(splatsOfPath())", "1"},
+        {"splat_first", "temporal_splat", "lod/partitions.glsl", "return min(uint(time * float(parts)), parts - 1u);", "return 0u;"}};
+    plant(folder.path, faults);
+    ASSERT_FALSE(HasFailure());
+    EnsembleJudge judged = judge({folder.path});
+    for (const Fault& fault : faults) {
+        StudyGraph technique = splatted(2, 0);
+        technique.patches = {Json::parse(R"({ "passes": { "temporal": { "type": ")" + fault.type + R"(" } } })", "patch")};
+        const EnsembleResult result = judgeFlight(fault.type, judged.measure(technique));
+        EXPECT_EQ(result.verdict, Verdict::biased) << fault.type << ": " << result.reason;
+    }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 // Dimensions at vertex 0, the camera.
 const uint RANDOM_FILM = 0u;       // xy: place inside the pixel
-const uint RANDOM_LENS = 1u;       // xy: place on the lens, z: time within the exposure
+const uint RANDOM_LENS = 1u;       // xy: place on the lens
 const uint RANDOM_THRESHOLD = 2u;  // thresholds that are random per path
 // Dimensions at a path's vertices; the primary hit is vertex 1.
 const uint RANDOM_BSDF = 8u;          // x: lobe, yz: direction

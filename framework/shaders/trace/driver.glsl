@@ -12,8 +12,9 @@
 //   void pathItemEnd(inout Path path, World w, ivec2 pixel, uint item);  after the item's last ray, also where it had none
 //   void pathEnd(Path path, ivec2 pixel);                     after the last item
 // and, if it defines PATH_NUMBER as well,
-//   uint pathNumber(Path path, World w, ivec2 pixel);         by which an item's rays choose levels (world/ray_levels.glsl) and its time
-//                                                             (world/exposure.glsl); without: the pixel's
+//   uint pathNumber(Path path, World w, ivec2 pixel);         by which an item's rays choose levels (world/ray_levels.glsl); without: the pixel's
+// and, if it defines PATH_TIME,
+//   float pathTime(Path path);                                at which an item's rays see the scene (world/exposure.glsl); without: that of their number
 // where `now` is the pass's input `world`, read once, and `w` is seen at the item's time but for pathBegin, which chooses it. pathRay may be called several
 // times for one ray, and so has to give the same one. The whole subgroup walks in step: its paths alternate between nearest-hit and any-hit rays, and one that
 // wants the other kind waits (measured to beat both lanes that go their own way and lanes that start their next path early).
@@ -56,6 +57,14 @@ void driverCount(uint purpose) {
 uint pathNumber(Path path, World w, ivec2 pixel) { return numberOfPixel(w, pixel); }
 #endif
 
+World driverWorld(Path path, World w, ivec2 pixel) {
+#ifdef PATH_TIME
+    return atTime(w, pathTime(path));
+#else
+    return atTime(w, pathNumber(path, w, pixel));
+#endif
+}
+
 void driverWalk(ivec2 pixel) {
     bool inside = all(lessThan(uvec2(pixel), push.extent));
 #ifdef DRIVER_PIXEL
@@ -69,7 +78,7 @@ void driverWalk(ivec2 pixel) {
     for (uint item = 0u; item < items; ++item) {
         World w = pathWorld(now, item);
         bool live = inside && pathBegin(path, w, pixel, item);
-        if (MOTION_BLUR != 0 && live) w = atTime(w, pathNumber(path, w, pixel));
+        if (MOTION_BLUR != 0 && live) w = driverWorld(path, w, pixel);
         bool phase = false;  // which kind of ray the subgroup traces now
         while (subgroupAny(live)) {
             bool anyHit = false;

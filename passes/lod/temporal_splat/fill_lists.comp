@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Enters each path of last frame into the list of the pixel it lands in.
+// Enters each path of last frame, as often as it is splatted, into the list of the pixel it lands in.
 #version 460
 #include "pass.glsl"
+#include "splats.glsl"
 
 void main() {
     if (skip()) return;
-    uint i = pixelIndex(pixel());
-    Landing landing = landings(i);
-    if (landing.target != 0xffffffffu) storeLists(starts(landing.target) + landing.order, i);
+    for (uint i = 0; i < splatsOfPath(); ++i) {
+        uint splat = splatOf(pixelIndex(pixel()), i);
+        Landing landing = landings(splat);
+        if (landing.target != 0xffffffffu) storeLists(starts(landing.target) + landing.order, splat);
+    }
 }

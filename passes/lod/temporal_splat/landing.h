@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where last frame's path of a pixel lands in this frame, and what this frame's path of a pixel would have been in the last.
+// Where a splat of last frame's path of a pixel lands in this frame, and what this frame's path of a pixel would have been in the last.
 #ifndef LODESTIR_LANDING_H
 #define LODESTIR_LANDING_H
 #include "base/shared.h"

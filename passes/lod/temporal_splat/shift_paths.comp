@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// All that traces rays: the path that last frame held in this pixel goes to where its first hit is now; this frame's path goes back to last
-// frame, to know who could have made it. With a backup both happen once more by reprojection.
+// All that traces rays: the path that last frame held in this pixel goes to where its first hit is now, once for each part of the exposure; this frame's
+// path goes back to last frame, to know who could have made it. With a backup both happen once more by reprojection.
 #version 460
 #include "pass.glsl"
 #include "backup.glsl"
 #include "film_projection.glsl"
+#include "splats.glsl"
 #include "lod/path_mapping.glsl"
 #include "restir/mis.glsl"
 #include "restir/history.glsl"
@@ -13,9 +14,8 @@
 #include "restir/suffix.glsl"
 #include "world/exposure.glsl"
 
-// How a pixel and its partner in last frame find each other.
-const uint SPLATTED = 0;     // by where the first hit is
-const uint REPROJECTED = 1;  // by motion
+// How a pixel and its partner in last frame find each other: by where the first hit is, once for each part of the exposure, then by motion.
+bool isSplat(uint partner) { return partner < splatsOfPath(); }
 
 struct Reuse {
     Reservoir own;
@@ -28,9 +28,15 @@ struct Reuse {
     Origins origins;
 };
 
+// Does what follows the reconnection vertex change on the way? Between parts of an exposure it does wherever something moves, were it the same each frame.
+bool walks(World now, World last) {
+    bool moves = params.suffix == suffix_automatic && splatsOfPath() > 1 && uint64_t(now.closing) != 0;
+    return moves || walksSuffix(now, last);
+}
+
 uint place(ivec2 p) { return pixelIndex(p); }
 
-uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : backupShare() > 0 ? 2 : 1; }
+uint reusePartners() { return !historyValid() || params.cap == 0 ? 0 : splatsOfPath() + (backupShare() > 0 ? 1 : 0); }
 World reuseWorld(World now, uint partner, uint way) {
     if (way == FORTH) return now;
     return worldPrev();
@@ -48,13 +54,14 @@ void reuseStart(inout Reuse r, World w, ivec2 pixel) {
     r.own = pathsReservoirs(place(pixel));
     r.ownHit = pathsSamples(place(pixel));
     r.before = pixelBefore(pixel, motion(pixel));
-    r.refresh = walksSuffix(w, worldPrev());
+    r.refresh = walks(w, worldPrev());
 }
 
 ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way) {
-    bool splats = partner == SPLATTED;
-    PROBE_CHOICE(technique, partner, "splatting|reprojection");
-    if (splats && rules().pixelCamera != 0) return shiftOfNothing();
+    bool splats = isSplat(partner);
+    PROBE_CHOICE(technique, splats ? 0 : 1, "splatting|reprojection");
+    // This frame's path is a copy of one path of last frame, whatever the part that it lies in.
+    if (splats && (rules().pixelCamera != 0 || (way == BACK && partner > 0))) return shiftOfNothing();
     World from, now = to;  // of the frames: at no time of a path, so that there and back it is the same
     if (way == BACK) from = now = world();
     else from = worldPrev();
@@ -81,8 +88,9 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     ivec2 here = pixel, there = r.before;  // the pixels by which levels are chosen, if they are chosen by pixels: then nothing is splatted
     if (way == FORTH) here = r.before, there = pixel;
     RayNumbers numbers = RayNumbers(pathNumber(rules(), from, here, path.seed), pathNumber(rules(), to, there, path.seed));
-    from = atTime(from, numbers.from);
-    to = atTime(to, numbers.to);
+    from = atTime(from, pathTime(rules(), from, here, hit.time));
+    if (splats) hit.time = way == FORTH ? timeInPart(hit.time, partner, splatsOfPath()) : timeOfOriginal(hit.time, splatsOfPath());
+    to = atTime(to, pathTime(rules(), to, there, hit.time));
     MappedPath mapped = mapPath(from, to, now, numbers, uv(), levelMapping(), wanted, centre, path, hit);
     // How much confidence of last frame is left to the pixel asks nothing of the samples, as confidence must not. All of it is where that isn't asked.
     if (splats && way == BACK) r.origins.kept = mapped.centreIsThere ? 1 : 0;
@@ -105,27 +113,30 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     }
     r.confidence = cappedConfidence(r.confidence, historyCap(way == FORTH ? r.landing : pixel));
     if (r.confidence == 0) return shiftOfNothing();
+    // The copies of a path share its confidence: where nothing moves they are worth no more than it, and counted in full they outweigh what is new.
+    if (splats) r.confidence /= float(splatsOfPath());
     PROBE_SHIFT(way, splats || way == BACK ? pixel : r.before, r.landing);
     PROBE(jacobianOfMap, mapped.jacobian);
     PROBE(jacobianOnFilm, jacobian / mapped.jacobian);
+    if (splats) jacobian *= way == FORTH ? 1 / float(splatsOfPath()) : float(splatsOfPath());  // of the time
     return ShiftTask(mapped.path, hit, r.landing, first, splats, jacobian, r.refresh);
 }
 
 // Last frame's path has arrived, or not.
 void arrive(inout Reuse r, ivec2 pixel, uint partner, Shift result) {
-    bool splats = partner == SPLATTED, good = result.jacobian > 0;
+    bool good = result.jacobian > 0;
     Landing landing = Landing(NONE, 0, result.jacobian, r.pHat, r.confidence, uvec3(0));
     result.path.W = r.W;
     if (good) landing.target = place(r.landing);
-    if (good && splats) {
+    if (good && isSplat(partner)) {
         landing.order = addCounts(landing.target, 1);
-        storeShiftedReservoirs(place(pixel), result.path);
-        storeShiftedSamples(place(pixel), result.hit);
+        storeShiftedReservoirs(splatOf(place(pixel), partner), result.path);
+        storeShiftedSamples(splatOf(place(pixel), partner), result.hit);
     } else if (good) {
         storeGatheredReservoirs(place(pixel), result.path);
         storeGatheredSamples(place(pixel), result.hit);
     }
-    if (splats) storeLandings(place(pixel), landing);
+    if (isSplat(partner)) storeLandings(splatOf(place(pixel), partner), landing);
     else storeGatherings(place(pixel), landing);
 }
 
@@ -137,14 +148,15 @@ void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift resul
     PROBE(confidence, r.confidence);
     PROBE(targetFrom, pHatFromReverse(target(result.path), result.jacobian));
     float from = r.confidence * pHatFromReverse(target(result.path), result.jacobian);
-    if (partner == SPLATTED) r.origins.scattered = from;
-    else r.origins.gathered = from;
+    if (!isSplat(partner)) r.origins.gathered = from;
+    else if (partner == 0) r.origins.scattered = from;
 }
 
 void reuseEnd(Reuse r, ivec2 pixel) {
     Landing nowhere = Landing(NONE, 0, 0, 0, 0, uvec3(0));
-    if (reusePartners() < 1) storeLandings(place(pixel), nowhere);
-    if (reusePartners() < 2) storeGatherings(place(pixel), nowhere);
+    if (reusePartners() == 0)
+        for (uint i = 0; i < splatsOfPath(); ++i) storeLandings(splatOf(place(pixel), i), nowhere);
+    if (reusePartners() <= splatsOfPath()) storeGatherings(place(pixel), nowhere);
     storeOrigins(place(pixel), r.origins);
 }
 

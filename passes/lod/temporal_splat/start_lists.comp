@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Gives each pixel room for the paths that land in it. The order of the lists doesn't matter.
+// Gives each pixel room for the splats that land in it. The order of the lists doesn't matter.
 #version 460
 #include "pass.glsl"
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Resamples the pixel's own path with those that landed in it, and with the backup.
 //
-// All paths of last frame together are one technique: a path of this frame has one place on last frame's film, in one pixel. So weights are not
-// divided by the number of paths that land here (Liu et al. 2025, Reservoir Splatting). With a backup, the own path is compared with each of the
-// two techniques in turn, pairwise, because neither's density of the other's path is known.
+// All paths of last frame together are one technique: a path of this frame has one place on last frame's film, in one pixel, and one time of last
+// frame's exposure. So weights are not divided by the number of paths that land here (Liu et al. 2025, Reservoir Splatting). With a backup, the own path
+// is compared with each of the two techniques in turn, pairwise, because neither's density of the other's path is known.
 #version 460
 #include "pass.glsl"
 #include "backup.glsl"
+#include "splats.glsl"
 #include "restir/mis.glsl"
 #include "restir/history.glsl"
 #include "restir/probe_path.glsl"
@@ -66,7 +67,7 @@ void main() {
         Reservoir path = shiftedReservoirs(source);
         PROBE_OPEN(candidates);
         PROBE_TEXT(path, "splatted");
-        PROBE(from, ivec2(source % frameSize().x, source / frameSize().x));
+        PROBE(from, pixelOfSplat(source));
         PROBE(confidence, landing.confidence);
         PROBE(targetFrom, pHatFromForward(landing.pHat, landing.jacobian));
         float m = pastMis(1 - backup, landing.confidence * pHatFromForward(landing.pHat, landing.jacobian), mine * target(path));

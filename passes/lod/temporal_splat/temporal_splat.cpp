@@ -9,6 +9,8 @@
 
 #include "landing.h"
 
+#include <cstring>
+
 using namespace lodestir;
 
 enum class Inherits { where_found, always };
@@ -26,24 +28,27 @@ struct TemporalSplat final : Pass {
     In<Paths>                paths{this, "paths", "this frame's path of each pixel"};
     In<Paths>                history{this, "history", "last frame's path of each pixel, after all reuse"};
     Out<Paths>               pathsOut{this, "paths", "the path of each pixel after reuse", Count::perPixel()};
-    Out<Image>               landed{this, "landed", "paths of last frame that landed in the pixel", Format::r32f, Need::optional};
+    Out<Image>               landed{this, "landed", "splats of last frame's paths that landed in the pixel", Format::r32f, Need::optional};
     Out<Image>               color{this, "color",
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
                                    Format::rgba32f, Need::optional};
-    Scratch<Paths>           shifted{this, "shifted", "each path of last frame where it lands", Count::perPixel()};
+    Scratch<Paths>           shifted{this, "shifted", "each path of last frame where it lands, as often as it is splatted", Count::reserved()};
     Scratch<Paths>           gathered{this, "gathered", "the path that reprojection brings", Count::perPixel()};
-    Scratch<Buffer<Landing>> landings{this, "landings", "of each path of last frame", Count::perPixel()};
+    Scratch<Buffer<Landing>> landings{this, "landings", "of each splat", Count::reserved()};
     Scratch<Buffer<Landing>> gatherings{this, "gatherings", "of each path that reprojection brings", Count::perPixel()};
     Scratch<Buffer<Origins>> origins{this, "origins", "of each path of this frame", Count::perPixel()};
-    Scratch<Buffer<uint>>    counts{this, "counts", "paths that land in each pixel", Count::perPixel()};
+    Scratch<Buffer<uint>>    counts{this, "counts", "splats that land in each pixel", Count::perPixel()};
     Scratch<Buffer<uint>>    starts{this, "starts", "where each pixel's list begins", Count::perPixel()};
-    Scratch<Buffer<uint>>    lists{this, "lists", "pixels whose paths land in one pixel, one list behind another", Count::perPixel()};
+    Scratch<Buffer<uint>>    lists{this, "lists", "splats that land in one pixel, one list behind another", Count::reserved()};
     Scratch<Buffer<uint>>    cursor{this, "cursor", "end of the lists", Count::fixed(1)};
     History                  reused{this};
     Param<float>             backup{this, "backup", 0.5f, {0, 1},
                                     "share of the history's confidence that goes to a path brought by reprojection, which is there where no path lands; "
                                     "0: splatting alone; 1 wherever the camera sample isn't the path's (camera of initial_sampling), whose place on the "
                                     "film can't move"};
+    Param<int>               partitions{this, "partitions", 2, {1, 8},
+                                        "parts of the exposure that each path is splatted to, while the shutter is open to anything that moves, the camera "
+                                        "included"};
     Param<VertexMapping>     vertexMapping{this, "vertexMapping", VertexMapping::uv, {"triangle", "uv", "uv_no_matching", "primary_only", "reconnection_only"},
                                            "how vertices pass from level to level: not at all; by texture coordinate; by texture coordinate where one triangle "
                                            "has it; the first hit alone; x_k alone"};
@@ -58,12 +63,24 @@ struct TemporalSplat final : Pass {
     InPlace                  over{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
+        const std::uint32_t each = splatsOfPath(frame), splats = each * frame.size().x * frame.size().y;
+        frame.reserve(shifted, splats);
+        frame.reserve(landings, splats);
+        frame.reserve(lists, splats);
         frame.fill(counts, 0);
         frame.fill(cursor, 0);
-        frame.dispatch("shift_paths.comp", frame.size());
+        frame.dispatch("shift_paths.comp", frame.size(), {each});
         frame.dispatch("start_lists.comp", frame.size());
-        frame.dispatch("fill_lists.comp", frame.size());
-        frame.dispatch(shader, frame.size());
+        frame.dispatch("fill_lists.comp", frame.size(), {each});
+        frame.dispatch(shader, frame.size(), {each});
+    }
+
+private:
+    /// Once, unless the exposure has parts that differ and the time is the path's.
+    std::uint32_t splatsOfPath(const Frame& frame) const {
+        const World now = frame.valueOf(world);
+        const bool moves = now.closing != 0 || std::memcmp(&now.camera, &now.closingCamera, sizeof now.camera) != 0;
+        return moves && frame.valueOf(rules).pixelCamera == 0 ? std::uint32_t(partitions) : 1;
     }
 };
 LODESTIR_PASS(TemporalSplat, "temporal_splat.comp",

@@ -78,7 +78,7 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
     PROBE(film, film);
     PROBE(lens, lens);
     World then = atTime(w, pathNumber(rules(), w, pixel, seed));
-    treeStart(p.tree, seed, film, lens, cameraRay(then, filmOf(pixel, film, frameSize()), lens));
+    treeStart(p.tree, seed, film, lens, then.time, cameraRay(then, filmOf(pixel, film, frameSize()), lens));
     return true;
 }
 

@@ -69,6 +69,8 @@ bool pathBegin(inout Path p, World w, ivec2 pixel, uint item) {
 Ray pathRay(inout Path p, out bool anyHit, out uint purpose) { return shiftRay(p.shift, anyHit, purpose); }
 #define PATH_NUMBER
 uint pathNumber(Path p, World w, ivec2 pixel) { return p.shift.number; }
+#define PATH_TIME
+float pathTime(Path p) { return p.shift.hit.time; }
 bool pathStep(inout Path p, World w, Hit hit) { return shiftStep(p.shift, w, rules(), hit); }
 
 void pathItemEnd(inout Path p, World w, ivec2 pixel, uint item) {

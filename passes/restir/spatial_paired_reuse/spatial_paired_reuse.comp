@@ -24,6 +24,7 @@ SampleHit shiftedSample(ivec2 p, ivec2 partner, uint slot) {
         SampleHit own = inputSample(p);
         hit.hit = own.hit;
         hit.uv = own.uv;
+        hit.time = own.time;
     } else {
         SharedFirstHit first = firstHits(recordOf(p, slot));
         hit.hit = PrimaryHit(first.instance, first.primitive, first.barycentrics, hit.hit.film, hit.hit.lens);
