@@ -32,12 +32,6 @@ void noteLevels(Scene& scene) {
                                              s.level, scene.instances[s.instance].name, s.frame, levels);
         if (said.insert(note).second) scene.notes.push_back(note);
     }
-    for (const Mesh& mesh : scene.meshes) {
-        const auto isLight = [&](std::uint32_t material) { return scene.materials[material].isLight(); };
-        if (mesh.levels.size() > 1 && std::ranges::any_of(mesh.levels[0].materials, isLight))
-            scene.notes.push_back(
-                fmt::format("\"{}\" emits light and keeps its finest level: lights are made of its triangles", mesh.name));
-    }
 }
 
 void addCamera(Scene& scene) {

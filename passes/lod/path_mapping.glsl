@@ -53,8 +53,9 @@ struct MappedPath {
 /// Takes all that `wanted` (MAP_*) says from one World to the other, at one place in the code: a map is many reads, and is compiled wherever it is called.
 MappedPath mapPath(World from, World to, World now, RayNumbers numbers, UvIndex index, LevelMapping mapping, uint wanted, PrimaryHit centre, Reservoir path,
                    SampleHit hit) {
-    uint kind = reconnectionKind(unpackShape(path.shape));
-    bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && kind != RC_LIGHT;
+    PathShape shape = unpackShape(path.shape);
+    uint kind = reconnectionKind(shape);
+    bool connects = kind != RC_NONE && kind != RC_ENVIRONMENT && (kind != RC_LIGHT || (SCENE_LIGHT_LEVELS != 0 && shape.light == PATH_LIGHT_TRIANGLE));
     MappedPath m = MappedPath(path, hit, true, holdsPath(path), 1.0);
     for (uint part = MAP_CENTRE; part <= MAP_CONNECTED; part <<= 1) {
         if ((wanted & part) == 0u || (part != MAP_CENTRE && !m.isThere)) continue;

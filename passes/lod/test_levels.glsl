@@ -9,7 +9,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TestMeshes {
 // Instances, all of spheres of radius 1 whose levels, of 4096, 1024, 256 and 64 triangles, are off by 0, 0.01, 0.04, 0.16.
 const uint FAR_ONE = 0u;   // twice as large, 12 away: 10 from the sphere, errors 0, 0.2, 0.8, 3.2 pixels
 const uint AROUND = 1u;    // around the camera
-const uint PINNED = 2u;    // as the first, but its mesh stays at its finest
+const uint PINNED = 2u;    // as the first, but its mesh has one level
 const uint FLATTENED = 3u; // twice as large along one axis, half as large along the others
 
 void writeLevels() {

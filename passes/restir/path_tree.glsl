@@ -246,6 +246,8 @@ bool offerLight(inout PathTree p, World w, ShiftRules rules, Surface s, Bsdf b, 
         path.G = connectionTerm(w, light);
         density = vertexDensity(w, light);
         rc.barycentrics = light.point.uv;
+        // By it the point passes to another level; that of a surface has been read, that of a light hasn't.
+        if (SCENE_LIGHT_LEVELS != 0 && kind == PATH_LIGHT_TRIANGLE) rc.uv = uvAt(w, SurfacePoint(path.rcInstance, path.rcPrimitive, rc.barycentrics));
     }
     offer(p, path, shape, rc, throughput * chosen, density, drawnNumber(draw, kept), warp);
     p.ray = shadowRay(w, s, light);

@@ -182,8 +182,7 @@ void meetLight(inout Shift t, World w, ShiftRules rules, Hit hit, Surface s, vec
 LightPoint storedLight(World w, Shift t) {
     if (t.shape.light == PATH_LIGHT_ENVIRONMENT) return LightPoint(w.environmentLight, t.path.rcPrimitive, t.hit.rc.barycentrics);
     if (t.shape.light == PATH_LIGHT_PUNCTUAL) return LightPoint(t.path.rcPrimitive, 0u, vec2(0.0));
-    uint first = w.instances.at[t.path.rcInstance].firstLight, emitter = w.emitters.at[t.path.rcPrimitive];
-    return LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, 0u, t.hit.rc.barycentrics);
+    return LightPoint(triangleLight(w, t.path.rcInstance, t.path.rcPrimitive), 0u, t.hit.rc.barycentrics);
 }
 
 // What a vertex scatters towards.

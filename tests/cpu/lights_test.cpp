@@ -41,7 +41,7 @@ Scene squareScene(float emission) {
     return scene;
 }
 
-MeshEmitters squareEmitters() { return {.primitives = {0, 1}, .triangles = {{0, 1, 2}, {0, 2, 3}}, .materials = {0, 0}}; }
+LevelEmitters squareEmitters() { return {.primitives = {0, 1}, .triangles = {{0, 1, 2}, {0, 2, 3}}, .materials = {0, 0}}; }
 
 }  // namespace
 
@@ -118,18 +118,21 @@ TEST(CumulativeTable, NumbersKeepTheirEntryWhereWeightsHardlyChange) {
     EXPECT_LT(others, 100);
 }
 
-LightList lightsOf(const Scene& scene, const std::vector<MeshEmitters>& emitters, float radius) {
-    std::vector<std::vector<glm::vec4>> positions;
-    for (const Mesh& mesh : scene.meshes)
-        for (auto& list = positions.emplace_back(); const glm::vec3& p : mesh.levels[0].positions) list.emplace_back(p, 0);
-    return listLights(scene, emitters, std::vector<std::span<const glm::vec4>>(positions.begin(), positions.end()), std::vector{glm::mat4(1)}, radius);
+/// `emitters`: of each mesh, by level.
+LightList lightsOf(const Scene& scene, const std::vector<std::vector<LevelEmitters>>& emitters, float radius) {
+    std::vector<glm::vec4> positions;
+    const auto positionsOf = [&](std::size_t mesh, std::size_t level) {
+        positions.clear();
+        for (const glm::vec3& p : scene.meshes[mesh].levels[level].positions) positions.emplace_back(p, 0);
+        return std::span<const glm::vec4>(positions);
+    };
+    return listLights(scene, emitters, positionsOf, std::vector{glm::mat4(1)}, radius);
 }
 
 // Power is a half of the choice, the kind of light the other half: here one kind, so the two triangles share evenly.
 TEST(LightList, TrianglesByPower) {
     const Scene scene = squareScene(3);
-    const std::vector<MeshEmitters> emitters{squareEmitters()};
-    const LightList list = lightsOf(scene, emitters, 1);
+    const LightList list = lightsOf(scene, {{squareEmitters()}}, 1);
     ASSERT_EQ(list.lights.size(), 2u);
     EXPECT_EQ(list.firstLight[0], 0u);
     EXPECT_EQ(list.environmentLight, NONE);
@@ -144,8 +147,7 @@ TEST(LightList, NoKindStarves) {
     Scene scene = squareScene(1e-4f);
     scene.environment.radiance = {glm::vec3(1)};
     scene.lights.push_back({.name = "lamp", .type = LightType::point, .intensity = 1e-5f, .node = 0});
-    const std::vector<MeshEmitters> emitters{squareEmitters()};
-    const LightList list = lightsOf(scene, emitters, 10);
+    const LightList list = lightsOf(scene, {{squareEmitters()}}, 10);
     ASSERT_EQ(list.lights.size(), 4u);
     EXPECT_EQ(list.environmentLight, 3u);
     EXPECT_NEAR(list.lights[0].pmf + list.lights[1].pmf, 1.0 / 6, 1e-3);
@@ -153,9 +155,46 @@ TEST(LightList, NoKindStarves) {
     EXPECT_NEAR(list.lights[3].pmf, 0.5 + 1.0 / 6, 1e-3);
 }
 
+// If this failed, a switch of level would send numbers to another instance, or leave some that choose nothing; or the power of a level's triangles
+// wouldn't decide which of them is chosen.
+TEST(LightList, CoarserLevelsShareTheNumbersOfTheFinest) {
+    Scene scene = squareScene(3);
+    MeshLevel coarse = scene.meshes[0].levels[0];
+    coarse.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0.9f, 0}, {0, 0.3f, 0}};
+    scene.meshes[0].levels.push_back(coarse);
+    scene.meshes[0].levels.push_back({.positions = coarse.positions, .normals = coarse.normals, .triangles = {{0, 1, 2}}, .materials = {0}});
+    scene.instances.push_back({"another", 0, 0});
+    scene.lights.push_back({.name = "lamp", .type = LightType::point, .intensity = 1, .node = 0});
+    LevelEmitters single{.primitives = {4}, .triangles = {{0, 1, 2}}, .materials = {0}}, second = squareEmitters();
+    second.primitives = {2, 3};
+    const LightList list = lightsOf(scene, {{squareEmitters(), second, single}}, 1);
+    EXPECT_EQ(list.count, 5u);
+    ASSERT_EQ(list.lights.size(), 5u + 2 * 3u);
+    std::uint64_t first = 0;  // of the numbers of an instance
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(list.firstLight[i], 2 * i);
+        const std::uint32_t last = list.lights[2 * i + 1].last, at = list.coarserLights[i];
+        ASSERT_LE(at + 3, list.levels.size());
+        const std::uint32_t begin = 5 + 3 * i;
+        EXPECT_EQ(list.levels[at], begin);
+        EXPECT_EQ(list.levels[at + 1], begin + 2);
+        EXPECT_EQ(list.levels[at + 2], begin + 3);
+        const float all = list.lights[2 * i].pmf + list.lights[2 * i + 1].pmf;
+        EXPECT_NEAR(list.lights[begin].pmf, 0.75f * all, 1e-6f);
+        EXPECT_NEAR(list.lights[begin + 1].pmf, 0.25f * all, 1e-6f);
+        EXPECT_NEAR(list.lights[begin + 2].pmf, all, 1e-6f);
+        EXPECT_EQ(list.lights[begin + 1].last, last);
+        EXPECT_EQ(list.lights[begin + 2].last, last);
+        EXPECT_NEAR(double(list.lights[begin].last + 1.0 - double(first)) / 4294967296.0, list.lights[begin].pmf, 1e-7);
+        for (std::uint32_t k = begin; k < begin + 3; ++k) EXPECT_EQ(list.lights[k].instance, i);
+        EXPECT_EQ(list.lights[begin + 2].primitive, 4u);
+        first = std::uint64_t(last) + 1;
+    }
+}
+
 TEST(LightList, BlackThingsAreNoLights) {
     Scene scene = squareScene(0);
-    const LightList list = lightsOf(scene, std::vector<MeshEmitters>(1), 1);
+    const LightList list = lightsOf(scene, {{LevelEmitters{}}}, 1);
     EXPECT_TRUE(list.lights.empty());
     EXPECT_EQ(list.firstLight[0], NONE);
 }

@@ -181,22 +181,11 @@ private:
                 throw Error(Where{file_.path.string()}, fmt::format("there is no mesh \"{}\"", wanted), didYouMean(wanted, names));
     }
 
-    bool emits(const tinygltf::Mesh& mesh) const {
-        return std::ranges::any_of(mesh.primitives, [&](const tinygltf::Primitive& primitive) {
-            const tinygltf::Material* material = materialOf(file_, primitive);
-            if (!material || isUnlit(*material)) return false;
-            const float strength = numberOf(findExtension(material->extensions, "KHR_materials_emissive_strength"), "emissiveStrength", 1);
-            return strength > 0 && std::ranges::any_of(material->emissiveFactor, [](double c) { return c > 0; });
-        });
-    }
-
     void addChain(std::size_t mesh, const std::vector<std::size_t>& nodes) {
         GltfSurface surface = SurfaceReader(file_, mesh).read();
         LodMeshFacts facts{.name = nameOf(mesh), .nodes = nodes.size(), .triangles = surface.level.triangles.size()};
         if (surface.level.triangles.empty()) {
             facts.notes.push_back("it has no triangles");
-        } else if (emits(file_.model.meshes[mesh])) {
-            facts.notes.push_back("it emits light and keeps its finest level: lights are made of its triangles");
         } else {
             facts.chain = buildLodChain(surface.level, options_.chain);
             writeChain(mesh, nodes, surface, facts);

@@ -18,4 +18,12 @@ struct CumulativeEntry {
 /// Table of weights >= 0 (at least one positive, else all entries are alike). An entry has a number if and only if its weight is positive. O(n).
 std::vector<CumulativeEntry> makeCumulativeTable(std::span<const double> weights);
 
+/// The numbers from `first` on, `count` of them.
+struct Numbers {
+    std::uint64_t first = 0, count = 0;
+};
+
+/// The same of these numbers only, without cut points: it is inverted by bisection. Where numbers are about as few as entries some go without.
+std::vector<CumulativeEntry> shareNumbers(std::span<const double> weights, Numbers numbers);
+
 }  // namespace lodestir

@@ -40,13 +40,11 @@ Geometry::Geometry(const Scene& scene, const gpu::Device* device)
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const std::size_t count = scene.meshes[m].levels.size();
         for (std::size_t l = 0; l < count; ++l) placeLevel(scene, m, l, std::exchange(orders[m][l], {}));
-        // A mesh of lights always shows its finest level, because the list of lights is made of that one's triangles.
-        const std::size_t last = emitters[m].empty() ? count - 1 : 0;
-        for (std::size_t l = last + 1; l < LEVELS; ++l) {
-            roots[m * LEVELS + l] = roots[m * LEVELS + last];
-            levels[m * LEVELS + l] = levels[m * LEVELS + last];
+        for (std::size_t l = count; l < LEVELS; ++l) {
+            roots[m * LEVELS + l] = roots[m * LEVELS + count - 1];
+            levels[m * LEVELS + l] = levels[m * LEVELS + count - 1];
         }
-        meshes.push_back(meshRecord(bounds[m], last + 1));
+        meshes.push_back(meshRecord(bounds[m], count));
     }
     triangles.values().back() = {};
     const auto upload = [](auto&... arrays) { (arrays.upload(), ...); };
@@ -92,7 +90,8 @@ void Geometry::placeLevel(const Scene& scene, std::size_t m, std::size_t l, cons
     const std::span<std::uint32_t> emitter = emitterIndices.values().subspan(range.firstTriangle, range.triangles);
     std::ranges::fill(emitter, NONE);
     const auto isLight = [&](std::uint32_t material) { return scene.materials[material].isLight(); };
-    if (l == 0 && std::ranges::any_of(level.materials, isLight)) listEmitters(scene, m, bvh.order, emitter);
+    emitters[m].emplace_back();
+    if (std::ranges::any_of(level.materials, isLight)) listEmitters(scene, m, l, bvh.order, emitter);
     if (!level.colors.empty())
         for (const std::uint32_t material : level.materials) vertexColor[material] = true;
 
@@ -108,14 +107,14 @@ void Geometry::placeLevel(const Scene& scene, std::size_t m, std::size_t l, cons
     });
 }
 
-void Geometry::listEmitters(const Scene& scene, std::size_t m, std::span<const std::uint32_t> order, std::span<std::uint32_t> emitter) {
-    const MeshLevel& level = scene.meshes[m].levels[0];
-    MeshEmitters& list = emitters[m];
+void Geometry::listEmitters(const Scene& scene, std::size_t m, std::size_t l, std::span<const std::uint32_t> order, std::span<std::uint32_t> emitter) {
+    const MeshLevel& level = scene.meshes[m].levels[l];
+    LevelEmitters& list = emitters[m][l];
     for (std::size_t i = 0; i < order.size(); ++i) {
         const std::uint32_t material = level.materials[order[i]];
         if (!scene.materials[material].isLight()) continue;
         emitter[i] = std::uint32_t(list.primitives.size());
-        list.primitives.push_back(std::uint32_t(places_[m][0].bvh.firstTriangle + i));
+        list.primitives.push_back(std::uint32_t(places_[m][l].bvh.firstTriangle + i));
         list.triangles.push_back(level.triangles[order[i]]);
         list.materials.push_back(material);
     }
@@ -142,8 +141,8 @@ void Geometry::pose(const Scene& scene, const Pose& pose) {
     }
 }
 
-std::span<const glm::vec4> Geometry::finestPositions(std::size_t mesh) const {
-    const Place& place = places_[mesh][0];
+std::span<const glm::vec4> Geometry::positionsOf(std::size_t mesh, std::size_t level) const {
+    const Place& place = places_[mesh][level];
     return positions.values().subspan(place.firstVertex, place.vertices);
 }
 

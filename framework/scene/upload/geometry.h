@@ -20,7 +20,7 @@ struct Geometry {
     gpu::Array<std::uint32_t> emitterIndices;    ///< of each primitive, see World.emitters
     gpu::Array<glm::vec4> positions;             ///< w: 0
     gpu::Array<VertexRecord> vertices;
-    std::vector<MeshEmitters> emitters;          ///< of each mesh
+    std::vector<std::vector<LevelEmitters>> emitters;  ///< of each mesh, by level
     std::vector<Box> bounds;                     ///< of each mesh, over its levels
     std::vector<BvhGrid> grids;                  ///< of each mesh
     std::vector<bool> vertexColor;               ///< of each material: some triangle with it has vertex colours
@@ -30,8 +30,8 @@ struct Geometry {
     explicit Geometry(const Scene& scene, const gpu::Device* device = nullptr);
     /// Moves the vertices of the meshes that deform, and fits boxes, spheres and normals to them.
     void pose(const Scene& scene, const Pose& pose);
-    /// Positions of the finest level of a mesh.
-    std::span<const glm::vec4> finestPositions(std::size_t mesh) const;
+    /// Positions of a mesh at one of its levels.
+    std::span<const glm::vec4> positionsOf(std::size_t mesh, std::size_t level) const;
 
 private:
     struct Place {  ///< of a level of a mesh in the arrays
@@ -42,7 +42,7 @@ private:
     Bvh addLevel(const Scene& scene, std::size_t mesh, std::size_t level);
     void allocate(const gpu::Device* device, bool deforms);
     void placeLevel(const Scene& scene, std::size_t mesh, std::size_t level, const Bvh& order);
-    void listEmitters(const Scene& scene, std::size_t mesh, std::span<const std::uint32_t> order, std::span<std::uint32_t> emitter);
+    void listEmitters(const Scene& scene, std::size_t mesh, std::size_t level, std::span<const std::uint32_t> order, std::span<std::uint32_t> emitter);
     std::vector<std::vector<Place>> places_;  ///< of each level of each mesh
     std::size_t triangleCount_ = 0, vertexCount_ = 0;
 };

@@ -62,35 +62,53 @@ LightRecord pointlike(const Light& light, const glm::mat4& toWorld) {
     return record;
 }
 
+/// Lists the lights of an instance at a level, and adds the power of each.
+void addTriangles(const Scene& scene, std::size_t instance, std::size_t level, const LevelEmitters& emitters, std::span<const glm::vec4> positions,
+                  const glm::mat4& toWorld, std::vector<LightRecord>& lights, std::vector<double>& power) {
+    const MeshLevel& mesh = scene.meshes[scene.instances[instance].mesh].levels[level];
+    for (std::size_t k = 0; k < emitters.primitives.size(); ++k) {
+        LightRecord record{};
+        record.type = LIGHT_TRIANGLE;
+        record.instance = std::uint32_t(instance);
+        record.primitive = emitters.primitives[k];
+        const Material& material = scene.materials[emitters.materials[k]];
+        const float area = triangleArea(positions, emitters.triangles[k], toWorld);
+        power.push_back(glm::pi<double>() * area * meanEmission(scene, mesh, emitters.triangles[k], material) * (material.doubleSided ? 2 : 1));
+        lights.push_back(record);
+    }
+}
+
+void setNumbers(std::span<LightRecord> lights, std::span<const CumulativeEntry> table) {
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        lights[i].pmf = table[i].pmf;
+        lights[i].last = table[i].last;
+        lights[i].start = table[i].start;
+    }
+}
+
 }  // namespace
 
-LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters, std::span<const std::span<const glm::vec4>> positions,
+LightList listLights(const Scene& scene, std::span<const std::vector<LevelEmitters>> emitters, const PositionsOfLevel& positions,
                      const std::vector<glm::mat4>& nodeMatrices, float sceneRadius) {
     constexpr double pi = glm::pi<double>();
     LightList list;
     list.firstLight.assign(scene.instances.size(), NONE);
+    list.coarserLights.assign(scene.instances.size(), NONE);
     enum Kind { triangles, points, environment, kinds };
     std::vector<double> power;
     std::vector<Kind> kindOf;
 
+    const auto add = [&](std::size_t instance, std::size_t level, std::vector<double>& powers) {
+        const std::size_t mesh = scene.instances[instance].mesh;
+        const glm::mat4 toWorld = scene.instanceMatrix(scene.instances[instance], nodeMatrices);
+        addTriangles(scene, instance, level, emitters[mesh][level], positions(mesh, level), toWorld, list.lights, powers);
+    };
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const Instance& instance = scene.instances[i];
-        const MeshEmitters& mesh = emitters[instance.mesh];
-        if (mesh.empty()) continue;
-        const MeshLevel& level = scene.meshes[instance.mesh].levels[0];
+        if (emitters[scene.instances[i].mesh][0].empty()) continue;
         list.firstLight[i] = std::uint32_t(list.lights.size());
-        for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
-            LightRecord record{};
-            record.type = LIGHT_TRIANGLE;
-            record.instance = std::uint32_t(i);
-            record.primitive = mesh.primitives[k];
-            const Material& material = scene.materials[mesh.materials[k]];
-            const float area = triangleArea(positions[instance.mesh], mesh.triangles[k], scene.instanceMatrix(instance, nodeMatrices));
-            power.push_back(pi * area * meanEmission(scene, level, mesh.triangles[k], material) * (material.doubleSided ? 2 : 1));
-            kindOf.push_back(triangles);
-            list.lights.push_back(record);
-        }
+        add(i, 0, power);
     }
+    kindOf.assign(power.size(), triangles);
 
     const double disk = pi * double(sceneRadius) * double(sceneRadius);
     for (const Light& light : scene.lights) {
@@ -131,11 +149,27 @@ LightList listLights(const Scene& scene, std::span<const MeshEmitters> emitters,
     std::vector<double> weights(power.size(), 0.0);
     for (std::size_t i = 0; i < power.size(); ++i)
         if (power[i] > 0) weights[i] = 0.5 * power[i] / total + 0.5 / present * power[i] / kindPower[kindOf[i]];
-    const std::vector<CumulativeEntry> table = makeCumulativeTable(weights);
-    for (std::size_t i = 0; i < table.size(); ++i) {
-        list.lights[i].pmf = table[i].pmf;
-        list.lights[i].last = table[i].last;
-        list.lights[i].start = table[i].start;
+    setNumbers(list.lights, makeCumulativeTable(weights));
+    list.count = std::uint32_t(list.lights.size());
+
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        if (list.firstLight[i] == NONE) continue;
+        const std::vector<LevelEmitters>& levels = emitters[scene.instances[i].mesh];
+        Numbers mine{number};
+        for (std::size_t k = 0; k < levels[0].primitives.size(); ++k)
+            if (const LightRecord& light = list.lights[list.firstLight[i] + k]; light.pmf > 0) number = std::uint64_t(light.last) + 1;
+        mine.count = number - mine.first;
+        if (levels.size() == 1) continue;
+        list.coarserLights[i] = std::uint32_t(list.levels.size());
+        for (std::size_t l = 1; l < levels.size(); ++l) {
+            const std::size_t first = list.lights.size();
+            list.levels.push_back(std::uint32_t(first));
+            std::vector<double> powers;
+            add(i, l, powers);
+            setNumbers(std::span(list.lights).subspan(first), shareNumbers(powers, mine));
+        }
+        list.levels.push_back(std::uint32_t(list.lights.size()));
     }
     return list;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the materials of a scene ask of shaders: shaders/world/scene_facts.glsl.
+// What the materials and levels of a scene ask of shaders: shaders/world/scene_facts.glsl.
 #pragma once
 #include <framework/scene/scene.h>
 

@@ -131,7 +131,7 @@ struct WorldBuilder::Moving {
     std::shared_ptr<const Shapes> shapes;
     std::shared_ptr<const BottomLevels::Table> bottomLevels;
     gpu::Array<BvhNode> nodes;
-    gpu::Buffer traceInstances, instances, closing, lights;
+    gpu::Buffer traceInstances, instances, closing, lights, lightLevels;
     bool moves = false;  ///< some instance, while the shutter is open
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
     std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
@@ -243,10 +243,12 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
         moving->center = 0.5f * (all.low + all.high);
         moving->radius = std::max(0.5f * glm::length(all.high - all.low), 1e-6f);
     }
-    std::vector<std::span<const glm::vec4>> positions;
-    for (std::size_t m = 0; m < scene_.meshes.size(); ++m) positions.push_back(geometry_->finestPositions(m));
+    const auto positions = [&](std::size_t mesh, std::size_t level) { return geometry_->positionsOf(mesh, level); };
     const LightList lights = listLights(scene_, geometry_->emitters, positions, pose.nodes, moving->radius);
-    for (std::size_t i = 0; i < records.size(); ++i) records[i].firstLight = lights.firstLight[i];
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].firstLight = lights.firstLight[i];
+        records[i].coarserLights = lights.coarserLights[i];
+    }
 
     const Bvh top = buildTopLevel(boxes);
     const std::size_t below = geometry_->nodes.size();
@@ -261,7 +263,8 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     moving->instances = gpu::makeBuffer(device_, std::span<const InstanceRecord>(records), "instances");
     if (moving->moves) moving->closing = gpu::makeBuffer(device_, std::span<const glm::vec4>(closing), "instances, as the shutter closes");
     moving->lights = gpu::makeBuffer(device_, std::span<const LightRecord>(lights.lights), "lights");
-    moving->lightCount = std::uint32_t(lights.lights.size());
+    moving->lightLevels = gpu::makeBuffer(device_, std::span<const std::uint32_t>(lights.levels), "light levels");
+    moving->lightCount = lights.count;
     moving->environmentLight = lights.environmentLight;
     return moving;
 }
@@ -297,6 +300,7 @@ World WorldBuilder::placedWorld() const {
     w.layers = fixed_->layers.address();
     w.textures = fixed_->textures.address();
     w.lights = moving_->lights.address();
+    w.lightLevels = moving_->lightLevels.address();
     w.environment = fixed_->environment.address();
     w.environmentSize = {scene_.environment.width, scene_.environment.height};
     w.environmentRotation = scene_.environment.rotation;
@@ -342,7 +346,7 @@ FrameWorld WorldBuilder::objects(const World* posed) {
         traced.push_back(traceInstance(m, geometry_->grids[m], untransformed));
         InstanceRecord& record = records.emplace_back();
         record.mesh = m;
-        record.firstLight = NONE;
+        record.firstLight = record.coarserLights = NONE;
         record.rounding = traceRounding(untransformed);
         putRows(untransformed, record.toWorld);
     }

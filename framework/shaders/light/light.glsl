@@ -5,11 +5,12 @@
 #include "base/sampling.glsl"
 #include "light/emission.glsl"
 #include "light/environment.glsl"
+#include "light/light_levels.glsl"
 #include "surface/surface.glsl"
 
 /// A point of a light, found without knowing who looks: it can be stored and seen from elsewhere.
 struct LightPoint {
-    uint light;  // index in World.lights, NONE: the scene has no light
+    uint light;  // index in World.lights, NONE: there is no light
     uint texel;  // environment: EnvironmentPoint
     vec2 uv;     // triangle: barycentrics, environment: place inside the texel, else unused
 };
@@ -25,22 +26,18 @@ struct LightSample {
     bool delta;            // no BSDF sample can find it
 };
 
-/// The light that a number chooses, by bisection from one cut point (LightRecord.start) to the next: one step on average.
+/// The light that a number chooses, NONE: its instance doesn't glow at the level shown. From one cut point (LightRecord.start) to the next: one step on
+/// average.
 uint numberedLight(World w, uint number) {
-    uint part = scaledIndex(number, w.lightCount), light = w.lights.at[part].start;
+    uint part = scaledIndex(number, w.lightCount);
     uint end = part + 1u < w.lightCount ? w.lights.at[part + 1u].start : w.lightCount - 1u;
-    while (light < end) {
-        uint middle = (light + end) / 2u;
-        if (number > w.lights.at[middle].last) light = middle + 1u;
-        else end = middle;
-    }
-    return light;
+    return shownLight(w, number, lightBetween(w, number, w.lights.at[part].start, end));
 }
 
 /// Picks a light and a point of it. choice = randomBits3(.., RANDOM_LIGHT_CHOICE), u = random3(.., RANDOM_LIGHT_POINT).
 LightPoint chooseLight(World w, uvec3 choice, vec3 u) {
-    if (w.lightCount == 0u) return LightPoint(NONE, 0u, vec2(0.0));
-    uint light = numberedLight(w, choice.x);
+    uint light = w.lightCount == 0u ? NONE : numberedLight(w, choice.x);
+    if (light == NONE) return LightPoint(NONE, 0u, vec2(0.0));
     if (light == w.environmentLight) return LightPoint(light, sampleEnvironmentTexel(w, choice.y, u.x), u.yz);
     return LightPoint(light, 0u, uniformTriangle(u.yz));
 }
@@ -59,6 +56,7 @@ float punctualFalloff(World w, uint light, vec3 direction, float distanceSquared
 
 void lightTriangle(World w, vec3 position, inout LightSample s) {
     uint instance = w.lights.at[s.point.light].instance, primitive = w.lights.at[s.point.light].primitive;
+    if (SCENE_LIGHT_LEVELS != 0 && triangleLight(w, instance, primitive) != s.point.light) return;
     uvec3 corners = cornersOf(w, primitive);
     uint material = w.primitives.at[primitive].material;
     Placement placement = placementOf(w, instance);
@@ -119,12 +117,12 @@ LightSample sampleLight(World w, vec3 position, uvec3 choice, vec3 u) { return l
 /// included; 0 where the triangle is no light.
 float lightPdf(World w, uint instance, uint primitive, vec3 direction, float distance) {
     if (isTexel(primitive)) return 0.0;  // rays don't meet them
-    uint emitter = w.emitters.at[primitive], first = w.instances.at[instance].firstLight;
-    if (emitter == NONE || first == NONE) return 0.0;
+    uint light = triangleLight(w, instance, primitive);
+    if (light == NONE) return 0.0;
     TrianglePoint point = pointOn(w, cornersOf(w, primitive), vec2(0.0));
     vec3 twiceArea = placeNormal(placementOf(w, instance), cross(point.edge1, point.edge2));
     float projected = 0.5 * abs(dot(twiceArea, direction));
-    return projected > 0.0 ? w.lights.at[first + emitter].pmf * square(distance) / projected : 0.0;
+    return projected > 0.0 ? w.lights.at[light].pmf * square(distance) / projected : 0.0;
 }
 
 /// The ray that decides how much s sees of the light sample. Behind panes lights of some extent are left to paths that go through them; those

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the materials of the scene ask for. The runner defines as 0 what none of them does, and the compiler leaves it out.
+// What the materials and levels of the scene ask for. The runner defines as 0 what none of them does, and the compiler leaves it out.
 #ifndef SCENE_LAYERS
 #define SCENE_LAYERS 1  // MaterialRecord.layers
 #endif
@@ -18,4 +18,7 @@
 #endif
 #ifndef SCENE_PANES
 #define SCENE_PANES 1   // MATERIAL_PANE, where there is a light without extent to shine through it
+#endif
+#ifndef SCENE_LIGHT_LEVELS
+#define SCENE_LIGHT_LEVELS 1  // meshes of several levels are lights (light/light_levels.glsl)
 #endif

@@ -25,7 +25,7 @@ uint64_t testArray(uint array) { return testPush.results + 16ul + 48ul * uint64_
 World testWorld() {
     World w;
     w.nodes = w.triangles = w.traceInstances = w.bottomLevels = w.tlas = 0ul;
-    w.roots = w.levels = w.dissolves = UintArray(0ul);
+    w.roots = w.levels = w.dissolves = w.lightLevels = UintArray(0ul);
     w.meshLevels = LevelArray(0ul);
     w.meshes = MeshArray(0ul);
     w.gridBase = w.gridScale = w.sceneCenter = vec3(0.0);
@@ -59,7 +59,7 @@ MaterialRecord testMaterial() {
 /// The identity, or any rows.
 InstanceRecord testInstance(vec4 row0, vec4 row1, vec4 row2) {
     uint flags = dot(row0.xyz, cross(row1.xyz, row2.xyz)) < 0.0 ? INSTANCE_MIRRORED : 0u;
-    return InstanceRecord(vec4[](row0, row1, row2), vec4(3), 0u, NONE, flags, 0u);
+    return InstanceRecord(vec4[](row0, row1, row2), vec4(3), 0u, NONE, flags, NONE);
 }
 
 LightRecord testLight(uint type, float pmf) {

@@ -30,9 +30,9 @@ struct InstanceRecord {
     vec4 toWorld[3];
     vec4 rounding;    // of its linear part M and translation t, sizes taken by element: |M^-1| |t|, and what |M^-1| |M| mixes (scene/bvh/bvh.h, traceRounding)
     uint mesh;
-    uint firstLight;  // index of the light of its mesh's first emissive triangle, NONE when it has none
+    uint firstLight;  // index of the light of its mesh's first emissive triangle at the finest level, NONE when it has none
     uint flags;       // INSTANCE_*
-    uint pad;
+    uint coarserLights;  // place in World.lightLevels; NONE where there are none at the finest level, or no other levels
 };
 const uint INSTANCE_MIRRORED = 1u;  // the way from the file's vertices to the world turns triangles inside out
 const uint INSTANCE_HIDDEN = 2u;    // nothing is left of it
@@ -66,7 +66,7 @@ struct LevelRecord {
 struct MeshRecord {
     vec3 center;   // of the sphere around all its levels, object space
     float radius;
-    uint levels;   // that may be chosen: 1 where it must stay at its finest
+    uint levels;   // that it has
     uvec3 pad;
 };
 
@@ -220,7 +220,7 @@ struct World {
     LODESTIR_ARRAY_OF(LevelArray) meshLevels;        // mesh m at level l: meshLevels[m * LEVELS + l]
     LODESTIR_ARRAY_OF(MeshArray) meshes;
     LODESTIR_ARRAY_OF(UintArray)
-    emitters;  // of each primitive: its place among its mesh's lights, NONE: no light (unlit surfaces emit, but aren't sampled)
+    emitters;  // of each primitive: its place among the lights of its mesh at its level, NONE: no light (unlit surfaces emit, but aren't sampled)
     LODESTIR_ARRAY_OF(Vec4Array) positions;          // xyz, object space
     LODESTIR_ARRAY_OF(VertexArray) vertices;
     LODESTIR_ARRAY_OF(MaterialArray) materials;
@@ -228,7 +228,8 @@ struct World {
     LODESTIR_ARRAY_OF(TextureArray) textures;
 
     // Light.
-    LODESTIR_ARRAY_OF(LightArray) lights;
+    LODESTIR_ARRAY_OF(LightArray) lights;            // lightCount of the finest levels, and behind them those of coarser ones (light/light_levels.glsl)
+    LODESTIR_ARRAY_OF(UintArray) lightLevels;        // of an instance with lights at several levels: where those of level 1 begin, of 2, ..., and the end
     LODESTIR_ARRAY_OF(EnvironmentArray) environment; // environmentSize.x * environmentSize.y texels
     uvec2 environmentSize;
     float environmentRotation;                       // radians around +Y

@@ -31,7 +31,8 @@ void main() {
     uint dissolve = 0;
     bool same = known && level == last;
     if (argument(0) == uint(mode_depth) || argument(0) == uint(mode_stochastic)) {
-        bool dissolves = argument(0) == uint(mode_stochastic);
+        // What glows shows all rays the same level, half way as with depth: lights are those of one level.
+        bool dissolves = argument(0) == uint(mode_stochastic) && w.instances.at[instance].firstLight == NONE;
         DepthCurve curve = DepthCurve(params.curve == curve_log, w.sceneRadius * params.depthNear, w.sceneRadius * params.depthFar, params.bias);
         LevelShare between = levelShare(levelByDepth(w, instance, curve), w.meshes.at[mesh].levels, dissolves ? params.transition : 0, uint(params.steps));
         level = between.level;

@@ -26,7 +26,7 @@ struct LodSelect final : Pass {
                      {"scene", "finest", "fixed", "schedule", "distance", "screen_error", "total_error", "depth", "stochastic"},
                      "how levels are chosen: as the scene file says; finest; one for all; by the scene file's schedule; by distance; the coarsest whose "
                      "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost; by depth; "
-                     "by depth, and in between a share of the rays sees the next coarser one already"};
+                     "by depth, and in between a share of the rays sees the next coarser one already; what is listed as light switches half way"};
     Param<int>          level{this, "level", 0, {0, int(LEVELS) - 1}, "of fixed: what all instances show; the coarsest where a mesh has fewer"};
     Param<float>        pixelError{this, "pixelError", 0, {0, 1000}, "largest error on the screen, pixels; 0: the scene file's"};
     Param<float>        hysteresis{this, "hysteresis", 0.2f, {0, 0.9f},

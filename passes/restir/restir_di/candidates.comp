@@ -97,8 +97,7 @@ void takeBsdf(inout Path p, World w, Hit hit) {
         Surface s = surfaceAt(w, hit, direction);
         radiance = emittedRadiance(w, s) * segmentTransmittance(w, s, hit.t);
         pdfLight = lightPdf(w, hit.instance, hit.primitive, direction, hit.t);
-        uint first = w.instances.at[hit.instance].firstLight, emitter = w.emitters.at[hit.primitive];
-        point = LightPoint(first == NONE || emitter == NONE ? NONE : first + emitter, 0, hit.barycentrics);
+        point = LightPoint(triangleLight(w, hit.instance, hit.primitive), 0, hit.barycentrics);
         perPoint = abs(dot(s.normal, direction)) / square(hit.t);
     }
     vec3 sent = p.next.weight * radiance;

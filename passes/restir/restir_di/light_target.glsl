@@ -50,6 +50,6 @@ LightPoint lightPoint(LightReservoir r) { return LightPoint(r.light, r.texel, r.
 
 /// p^ of the reservoir's point at another surface.
 float targetAt(World w, LitSurface l, LightReservoir r) {
-    if (l.sky || r.W <= 0.0 || r.light >= w.lightCount) return 0.0;
+    if (l.sky || r.W <= 0.0 || r.light == NONE) return 0.0;
     return luminance(arriving(w, l, lightSampleAt(w, lightPoint(r), l.s.position)));
 }

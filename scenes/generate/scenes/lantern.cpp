@@ -23,8 +23,8 @@ namespace {
 
 constexpr float back = -1.3f, left = -1.65f, ceiling = 2.7f, bench = 0.44f;
 
-/// Lanterns of one paper in two dyes. The paper emits its colour without being in the list of lights, so that it may change its level; most light leaves by
-/// their mouths, which are in that list.
+/// Lanterns of one paper in two dyes. The paper emits its colour without being in the list of lights, for it is of a hundred thousand triangles; most light
+/// leaves by their mouths, which are in that list.
 void addLanterns(Glb& glb) {
     const int paper = glb.addGeometry(lanternPaper());
     struct Dye {
