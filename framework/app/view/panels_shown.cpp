@@ -151,7 +151,7 @@ void Panels::runA(const ViewStatus& status) {
 void Panels::drawComparison(const ViewStatus& status) {
     const bool live = status.a.kind == SideA::Kind::live, keeps = status.a.kind == SideA::Kind::kept;
     const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 6 * space) / 7, wide = 1.5f * width + 0.5f * space;
-    if (button("keep", live || keeps ? "Let A go" : "Keep as A",
+    if (button("keep", live || keeps ? "Let A go" : "Keep A",
                "what is shown now stays as A, to be compared with what comes: another port, variant, graph or value: A", wide))
         keepA(status);
     ImGui::SameLine();
