@@ -33,7 +33,7 @@ float pickFrom(const std::array<float, 4>& values, std::uint32_t channels, std::
 
 constexpr std::size_t mostTexels = 65536;  // that statistics are made of
 
-/// The numbers of the texel at `place`; components that it hasn't are 0. False where the memory ends before.
+/// The numbers of a texel; components that it hasn't are 0. False where the memory ends before.
 bool readTexel(std::span<const std::byte> memory, std::size_t texel, const TexelLayout& layout, std::array<float, 4>& values) {
     const std::size_t bytes = bytesOf(layout.number), place = texel * layout.stride + layout.offset;
     values = {0, 0, 0, 0};

@@ -43,6 +43,7 @@ void ViewSession::tell() {
     status_.redo = history_.redoable();
     status_.a = sides_.a();
     status_.compared = sides_.numbers();
+    if (!lost_.empty()) status_.refused = "A";
     for (std::string& problem : lost_) status_.problems.push_back(std::move(problem));
     lost_.clear();
     publish_(status_);

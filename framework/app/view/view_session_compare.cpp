@@ -59,13 +59,14 @@ void ViewSession::runAsA() {
 void ViewSession::runAsA(const Path& graph, const std::optional<std::string>& variant) {
     if (!session_ || broken_) return;
     std::optional<SideGraph> side;
-    if (attempt([&] { side = sideGraph(graph, variant); })) startA(std::move(*side));
-    else tell();
+    if (attempt([&] { side = sideGraph(graph, variant); })) return startA(std::move(*side));
+    status_.refused = variant.value_or("the graph as written") + " as A";
+    tell();
 }
 
 void ViewSession::compareWithImage(const Path& file) {
     if (!session_) return;
-    attempt([&] { sides_.read(file, session_->runner().size(), captures_); });
+    if (!attempt([&] { sides_.read(file, session_->runner().size(), captures_); })) status_.refused = file.filename().string() + " as a reference";
     measure(true);
     tell();
 }
@@ -101,7 +102,7 @@ void ViewSession::resetBoth() {
 
 void ViewSession::makeStudy(const Path& folder) {
     if (!session_) return;
-    attempt([&] {
+    const bool done = attempt([&] {
         const SideGraph b = sideGraph();
         const Path file = writeSideStudy({.a = sides_.graph(),
                                           .b = b,
@@ -115,6 +116,7 @@ void ViewSession::makeStudy(const Path& folder) {
         status_.note = "wrote " + file.string();
         log::note("{}; `lodestir study {}` runs it", status_.note, file.string());
     });
+    if (!done) status_.refused = "make a study";
     tell();
 }
 
