@@ -175,7 +175,7 @@ void Panels::drawHelp() {
                                                {"G", "the graph: its passes and edges, to be edited"},
                                                {"P", "what happened to the pixel under the pointer"},
                                                {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},
-                                               {"S   Ctrl + S", "save what is shown (EXR, PNG); edits into the graph's file"},
+                                               {"S   Ctrl + S", "save what is shown; edits into the graph's file"},
                                                {"T", "save the last frames' times (CSV, Perfetto)"},
                                                {"F12", "picture of the whole window"},
                                                {"Ctrl + click on a slider", "type the number"},
