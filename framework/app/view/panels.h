@@ -4,6 +4,7 @@
 #include <framework/app/view/comparison.h>
 #include <framework/app/view/graph_panel.h>
 #include <framework/app/view/render_thread.h>
+#include <framework/app/view/scene_panel.h>
 #include <framework/app/view/viewport.h>
 #include <framework/app/view/window.h>
 
@@ -63,6 +64,8 @@ private:
     void keepPicture(const ViewStatus& status);
     std::string whatIsShown(const ViewStatus& status) const;
     void moveCamera(const std::optional<CameraKey>& camera);
+    void drawScene(const ViewStatus& status);
+    ScenePanel::Host sceneHost();
     void send(RenderThread::Task task) { renderer_.post(std::move(task)); }
 
     RenderThread& renderer_;
@@ -70,6 +73,7 @@ private:
     Viewport& viewport_;
     Comparison& comparison_;
     GraphPanel graphPanel_;
+    ScenePanel scenePanel_;
     Path out_;
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

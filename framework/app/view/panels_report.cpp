@@ -171,6 +171,7 @@ void Panels::drawHelp() {
                                                {"A", "keep what is shown, to compare; let it go"},
                                                {"B", "A | B with a line to drag, A, B, A - B"},
                                                {"G", "the graph: its passes and edges, to be edited"},
+                                               {"O", "the scene: levels, materials, lights, cameras; a click picks"},
                                                {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},
                                                {"S", "save what is shown (EXR, PNG)"},
                                                {"T", "save the last frames' times (CSV, Perfetto)"},

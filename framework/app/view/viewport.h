@@ -21,6 +21,8 @@ public:
     float zoom() const { return scale_; }
     /// From pixels of the rectangle to pixels of the image: a picture of an older camera is warped to where the camera is by now.
     glm::mat3 toImage(const Picture& picture) const;
+    /// Where in the image a left click was that moved nothing, once; `picture`: what was seen there.
+    std::optional<glm::vec2> takeClick(const Picture& picture);
     glm::ivec2 pixelUnderPointer() const { return pixel_; }  ///< {-1, -1}: none
 
 private:
@@ -33,6 +35,8 @@ private:
     glm::ivec2 pixel_{-1};
     int button_ = -1;             ///< that was pressed inside and is held
     bool movesPicture_ = false;
+    float dragged_ = 0;           ///< pixels, while a button is held
+    std::optional<glm::vec2> clicked_;  ///< pixel of the rectangle
     std::optional<CameraKey> moved_;
 };
 
