@@ -25,6 +25,17 @@ std::vector<std::uint32_t> scheduledLevels(const Scene& scene, float frame) {
     return levels;
 }
 
+std::vector<std::uint32_t> instancesNamed(const Scene& scene, const std::string& name) {
+    std::vector<std::uint32_t> named, below;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        if (scene.instances[i].name == name) named.push_back(i);
+        std::uint32_t node = scene.instances[i].node;
+        while (node != none && scene.nodes[node].name != name) node = scene.nodes[node].parent;
+        if (node != none) below.push_back(i);
+    }
+    return named.empty() ? below : named;
+}
+
 std::string describe(const LodPolicy& policy) {
     switch (policy.mode) {
         case LodMode::finest: return "finest level of every instance";

@@ -5,6 +5,7 @@
 #include <framework/scene/deformation.h>
 #include <framework/scene/fields.h>
 #include <framework/scene/gltf/gltf.h>
+#include <framework/scene/level_policy.h>
 #include <framework/scene/scene_file.h>
 #include <framework/scene/scene_sections.h>
 
@@ -279,27 +280,17 @@ private:
         }
     }
 
-    /// One switch for each instance of that name; where there is none, for each instance below a node of that name.
+    /// One switch for each instance that is meant.
     void addSwitches(LodSwitch change, const std::string& name, const Json& place) {
-        const auto add = [&](auto&& isMeant) {
-            const std::size_t before = scene_.lod.schedule.size();
-            for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
-                if (!isMeant(scene_.instances[i])) continue;
-                if (scene_.lod.schedule.size() == maxSwitches)
-                    throw Error(place.where(),
-                                fmt::format("the schedule has more than {} switches, one for each instance of a name", maxSwitches),
-                                "leave \"instance\" out where all are meant");
-                change.instance = static_cast<std::uint32_t>(i);
-                scene_.lod.schedule.push_back(change);
-            }
-            return scene_.lod.schedule.size() > before;
-        };
-        const auto isBelow = [&](const Instance& instance) {
-            std::uint32_t node = instance.node;
-            while (node != none && scene_.nodes[node].name != name) node = scene_.nodes[node].parent;
-            return node != none;
-        };
-        if (add([&](const Instance& instance) { return instance.name == name; }) || add(isBelow)) return;
+        const std::vector<std::uint32_t> named = instancesNamed(scene_, name);
+        if (scene_.lod.schedule.size() + named.size() > maxSwitches)
+            throw Error(place.where(), fmt::format("the schedule has more than {} switches, one for each instance of a name", maxSwitches),
+                        "leave \"instance\" out where all are meant");
+        for (const std::uint32_t instance : named) {
+            change.instance = instance;
+            scene_.lod.schedule.push_back(change);
+        }
+        if (!named.empty()) return;
         std::set<std::string> names;
         for (const Instance& instance : scene_.instances) names.insert(instance.name);
         const std::vector<std::string> candidates(names.begin(), names.end());

@@ -205,6 +205,36 @@ TEST_F(ShippedGraphEdit, EverySwapThatIsOfferedCanBeBuilt) {
     EXPECT_GT(offered, 8);
 }
 
+/// Who makes each World that a graph's passes take: "hits.worldPrev" -> "lod.world@prev".
+std::map<std::string, std::string> worlds(const Graph& graph) {
+    std::map<std::string, std::string> texts;
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+        for (const Wire& input : wiresOf(*graph.nodes[n].pass, [](const Port& port) { return port.isInput(); })) {
+            if (input.bundle || !input.port().type.isSame(PortTypeOf<World>::value)) continue;
+            if (const std::optional<Feed> feed = feedOf(graph, int(n), input))
+                texts[graph.nodes[n].name + "." + std::string(input.name())] = graph.nameOf({feed->node, feed->output.first, feed->prev});
+        }
+    return texts;
+}
+
+// An edit of the scene that only some passes see would have reuse compare two scenes.
+TEST_F(ShippedGraphEdit, AnEditOfTheSceneIsSeenByAllWhoSawTheScene) {
+    for (const std::string name : {"path_tracer", "restir_pt", "restir_lod", "restir_lod_enhanced", "impostor_field", "impostor", "variable_rate"}) {
+        const Graph before = build(name);
+        const Json patch = worldPatch(before, "lamp", {.type = "light_edit"});
+        const Graph after = build(name, {.patches = {patch}});
+        std::map<std::string, std::string> expected = worlds(before);
+        for (auto& [input, from] : expected)
+            if (from.starts_with("scene.")) from.replace(0, 5, "lamp");
+        expected["lamp.world"] = "scene.world";
+        EXPECT_EQ(worlds(after), expected) << name;
+        // One more comes before it.
+        const Graph twice = build(name, {.patches = {patch, worldPatch(after, "levels", {.type = "lod_select", .ownPrevious = true})}});
+        EXPECT_EQ(worlds(twice)["lamp.world"], "levels.world") << name;
+        EXPECT_EQ(worlds(twice)["levels.worldPrev"], "levels.world@prev") << name;
+    }
+}
+
 HandMade with(int patches, int cap = 0) {
     HandMade made;
     made.patches.resize(std::size_t(patches));

@@ -64,6 +64,28 @@ TEST_F(Images, Identity) {
     EXPECT_NEAR(paths, 1, 1e-3);
 }
 
+// A level that is forced between two frames is a switch as the schedule has it: the same bits, before and after, whatever else chooses the levels.
+TEST_F(Images, ForcedIsAsScheduled) {
+    const std::vector<SheetLevel> levels{{.cells = 8, .place = flat}, {.cells = 5, .place = flat}};
+    Frames frames(write("forced", levels, switchAt(3)), {48, 32}, reuseNodes(), {"shade.color", "temporal.landed", "lod.chosen"});
+    for (const char* mode : {"finest", "distance"}) {
+        std::vector<ImageData> images[2];
+        for (const bool forced : {false, true}) {
+            frames.set("lod.mode", Json(forced ? mode : "schedule"));
+            frames.set("lod.force", Json(""));
+            frames.restart(0, 7);
+            for (int frame = 0; frame < 6; ++frame) {
+                if (forced && frame == 3) frames.set("lod.force", Json("*=1"));
+                frames.run();
+                images[forced].push_back(frames.image("shade.color"));
+                images[forced].push_back(frames.image("temporal.landed"));
+                EXPECT_EQ(frames.records<std::uint32_t>("lod.chosen").at(0), frame < 3 ? 0u : 1u);
+            }
+        }
+        for (std::size_t i = 0; i < images[0].size(); ++i) EXPECT_TRUE(images[0][i].values == images[1][i].values) << mode << ", frame " << i / 2;
+    }
+}
+
 // Two instances of one model, of which the left one switches: each path stays on its instance, with its coordinate; the right one keeps its
 // triangles.
 TEST_F(Images, OneOfTwoInstances) {

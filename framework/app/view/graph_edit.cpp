@@ -226,14 +226,6 @@ void keepSettings(const GraphNode& node, const NodeDescription& described, const
     }
 }
 
-/// Type "folder" or "folder.Struct" as the name of a pass that no other has.
-std::string nameFor(const Graph& graph, const std::string& type) {
-    const std::string stem = type.substr(type.find('.') + 1);
-    std::string name = stem;
-    for (int number = 2; graph.find(name) >= 0 || name == "frame"; ++number) name = fmt::format("{}_{}", stem, number);
-    return name;
-}
-
 /// All outputs of the graph that fit an input of a pass that isn't in it yet.
 std::vector<std::string> candidatesFor(const Graph& graph, const Wire& input) {
     std::vector<std::string> texts;
@@ -356,6 +348,33 @@ Json additionPatch(const Graph& graph, const PassType& type, const std::map<std:
         else if (candidates.size() == 1)
             pass["in"][input.name()] = candidates.front();
     }
+    return patch;
+}
+
+std::string nameFor(const Graph& graph, const std::string& type) {
+    const std::string stem = type.substr(type.find('.') + 1);
+    std::string name = stem;
+    for (int number = 2; graph.find(name) >= 0 || name == "frame"; ++number) name = fmt::format("{}_{}", stem, number);
+    return name;
+}
+
+Json worldPatch(const Graph& graph, const std::string& name, const WorldPass& pass) {
+    Json patch;
+    // What the graph binds by itself is said from here on: the new pass comes last in the file, and unwired inputs would take its World, whosever they took.
+    for (std::size_t n = 0; n < graph.nodes.size(); ++n)
+        for (const Wire& input : wiresOf(*graph.nodes[n].pass, isInput)) {
+            if (!isWorld(input)) continue;
+            const std::optional<Feed> feed = feedOf(graph, int(n), input);
+            if (!feed) continue;
+            const GraphNode& from = nodeAt(graph, feed->node);
+            if (from.type == sceneType) patch["passes"][graph.nodes[n].name]["in"][input.name()] = textOf(name, "world", feed->prev);
+            else if (!feed->written) patch["passes"][graph.nodes[n].name]["in"][input.name()] = textOf(from.name, feed->output.name(), feed->prev);
+        }
+    Json& made = patch["passes"][name];
+    made["type"] = pass.type;
+    made["in"]["world"] = std::ranges::find(graph.nodes, sceneType, &GraphNode::type)->name;
+    if (pass.ownPrevious) made["in"]["worldPrev"] = textOf(name, "world", true);
+    made["set"] = pass.set;
     return patch;
 }
 

@@ -47,4 +47,16 @@ LODESTIR_API std::optional<Json> swapPatch(const Graph& graph, int node, const P
 /// With one more pass, at the end. Its inputs take the only output that fits, or what `answers` says.
 LODESTIR_API Json additionPatch(const Graph& graph, const PassType& type, const std::map<std::string, std::string>& answers = {});
 
+/// A pass that takes a World and hands it on changed.
+struct WorldPass {
+    std::string type;
+    bool ownPrevious = false;  ///< it takes its own World of last frame as "worldPrev"
+    Json set = Json::object();
+};
+/// With such a pass straight behind the scene, before all else: who took the scene's World, last frame's included, takes the new pass's. `name`: of the
+/// new pass, which no other has.
+LODESTIR_API Json worldPatch(const Graph& graph, const std::string& name, const WorldPass& pass);
+/// Type "folder" or "folder.Struct" as the name of a pass that no other has.
+LODESTIR_API std::string nameFor(const Graph& graph, const std::string& type);
+
 }  // namespace lodestir

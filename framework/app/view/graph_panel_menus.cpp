@@ -7,19 +7,8 @@
 #include <framework/app/view/theme.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace lodestir {
-namespace {
-
-/// Does `text` hold `part`, whatever their case?
-bool holds(const std::string& text, std::string_view part) {
-    const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
-    return std::ranges::search(text, part, same).begin() != text.end() || part.empty();
-}
-
-}  // namespace
-
 void GraphPanel::drawBar(const ViewStatus& status) {
     const auto button = [&](const char* name, const char* label, bool enabled, const std::string& about) {
         ImGui::BeginDisabled(!enabled);
@@ -123,7 +112,7 @@ void GraphPanel::drawAddMenu() {
     ImGui::BeginChild("types", {0, 380});
     for (std::size_t t = 0; t < graph_->edits.types.size(); ++t) {
         const EditInfo::Type& type = graph_->edits.types[t];
-        if (!holds(type.name, filter_.data()) && !holds(type.doc, filter_.data())) continue;
+        if (!holdsText(type.name, filter_.data()) && !holdsText(type.doc, filter_.data())) continue;
         // Several outputs would do for one of its inputs: the last one made, unless told otherwise.
         if (ImGui::Selectable(type.name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) {
             answers_.clear();

@@ -36,13 +36,20 @@ struct Projection {
     }
 };
 
+/// A number with six digits, or as many as it takes for what it is read as to be `value`.
+template <class ReadBack> Json numberJson(float value, float written, const ReadBack& readBack) {
+    for (int digits = 6;; ++digits) {
+        const double number = std::strtod(fmt::format("{:.{}g}", written, digits).c_str(), nullptr);
+        if (readBack(float(number)) == value || digits == 9) return Json(number);
+    }
+}
+Json numberJson(float value) { return numberJson(value, value, [](float read) { return read; }); }
+
 Json vectorJson(const glm::vec3& v) {
     Json array = Json::array();
-    for (int i = 0; i < 3; ++i) array.push(std::strtod(fmt::format("{:.6g}", v[i]).c_str(), nullptr));
+    for (int i = 0; i < 3; ++i) array.push(numberJson(v[i]));
     return array;
 }
-
-Json numberJson(float value) { return Json(std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr)); }
 
 }  // namespace
 
@@ -94,6 +101,23 @@ CameraKey framed(const CameraKey& camera, const std::array<glm::vec3, 2>& bounds
     return moved;
 }
 
+ViewRay viewRay(const CameraKey& camera, glm::vec2 place, float aspect) {
+    const Projection picture(camera, aspect);
+    if (!picture.orthographic) return {picture.base, picture.axes * glm::vec3(place, 1)};
+    return {picture.base + picture.axes * glm::vec3(place, 0), picture.axes[2]};
+}
+
+glm::vec3 placeInPicture(const CameraKey& camera, const glm::vec3& point, float aspect) {
+    const Projection projection(camera, aspect);
+    const glm::vec3 place = glm::inverse(projection.axes) * (point - projection.base);
+    return projection.orthographic ? glm::vec3(place.x, place.y, 1) : place;
+}
+
+std::optional<glm::vec2> placeOf(const CameraKey& camera, const glm::vec3& point, float aspect) {
+    const glm::vec3 place = placeInPicture(camera, point, aspect);
+    return place.z > 0 ? std::optional(glm::vec2(place) / place.z) : std::nullopt;
+}
+
 Json cameraJson(const CameraKey& camera) {
     Json json = Json::object();
     json["position"] = vectorJson(camera.position);
@@ -102,7 +126,7 @@ Json cameraJson(const CameraKey& camera) {
     if (camera.height > 0) {
         json["orthographic"] = numberJson(camera.height);
     } else {
-        json["fovy"] = numberJson(glm::degrees(camera.fovy));
+        json["fovy"] = numberJson(camera.fovy, glm::degrees(camera.fovy), [](float read) { return glm::radians(read); });
         json["aperture"] = numberJson(camera.aperture);
     }
     json["focus"] = numberJson(camera.focus);
@@ -130,12 +154,6 @@ glm::mat3 warpBetween(const CameraKey& from, const CameraKey& to, float aspect) 
     if (source.orthographic)
         for (int i = 0; i < 3; ++i) place[i].z = weight[i];
     return place;
-}
-
-glm::vec3 placeInPicture(const CameraKey& camera, const glm::vec3& point, float aspect) {
-    const Projection projection(camera, aspect);
-    const glm::vec3 place = glm::inverse(projection.axes) * (point - projection.base);
-    return projection.orthographic ? glm::vec3(place.x, place.y, 1) : place;
 }
 
 }  // namespace lodestir

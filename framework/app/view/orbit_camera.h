@@ -4,6 +4,8 @@
 #include <framework/core/json.h>
 #include <framework/scene/scene.h>
 
+#include <optional>
+
 namespace lodestir {
 
 /// Around the target, radians to the right and upwards; stops just short of looking along `up`.
@@ -14,14 +16,21 @@ LODESTIR_API CameraKey panned(const CameraKey& camera, float right, float up);
 LODESTIR_API CameraKey dollied(const CameraKey& camera, float factor);
 /// Looks the same way at the middle of `bounds` from where all of it is seen. `aspect`: width over height.
 LODESTIR_API CameraKey framed(const CameraKey& camera, const std::array<glm::vec3, 2>& bounds, float aspect);
-/// As a scene file has it: {"position": ..., "target": ..., "up": ..., "fovy": degrees, "aperture": ..., "focus": ...}, or with "orthographic": height
-/// in place of angle and aperture.
+/// Of what a camera without a lens sees at a place of its picture, 0..1 to the right and downwards. Direction: any length. `aspect`: width over height.
+struct ViewRay {
+    glm::vec3 origin, direction;
+};
+LODESTIR_API ViewRay viewRay(const CameraKey& camera, glm::vec2 place, float aspect);
+/// Where its picture has a point of the world, homogeneous; z <= 0: it lies behind the camera.
+LODESTIR_API glm::vec3 placeInPicture(const CameraKey& camera, const glm::vec3& point, float aspect);
+/// Where its picture has a point, 0..1 to the right and downwards; nothing for what lies behind it.
+LODESTIR_API std::optional<glm::vec2> placeOf(const CameraKey& camera, const glm::vec3& point, float aspect);
+/// As a scene file has it, with as many digits as give the same camera back: {"position": ..., "target": ..., "up": ..., "fovy": degrees, "aperture": ...,
+/// "focus": ...}, or with "orthographic": height in place of angle and aperture.
 LODESTIR_API Json cameraJson(const CameraKey& camera);
 
 /// From places in the picture of camera `to` to places in that of camera `from`, both 0..1 to the right and downwards, homogeneous; exact for what
 /// lies in the plane through `from`'s target that faces `from`. Shows an older picture as the newer camera would roughly see it.
 LODESTIR_API glm::mat3 warpBetween(const CameraKey& from, const CameraKey& to, float aspect);
-/// Where the picture of a camera has a point of the world: its place as above, homogeneous; z <= 0: behind the camera.
-LODESTIR_API glm::vec3 placeInPicture(const CameraKey& camera, const glm::vec3& point, float aspect);
 
 }  // namespace lodestir

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace lodestir {
 
 void quietText(const std::string& text) {
@@ -35,6 +38,11 @@ void rightText(const std::string& text) {
     const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
     if (space > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + space);
     ImGui::TextUnformatted(text.c_str());
+}
+
+bool holdsText(const std::string& text, std::string_view part) {
+    const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+    return std::ranges::search(text, part, same).begin() != text.end() || part.empty();
 }
 
 }  // namespace lodestir

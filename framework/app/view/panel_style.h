@@ -4,6 +4,7 @@
 #include <imgui/imgui.h>
 
 #include <string>
+#include <string_view>
 
 namespace lodestir {
 
@@ -21,5 +22,7 @@ void heading(const char* text);
 std::string timeText(double milliseconds);
 /// Text that ends at the right edge of the cell or window.
 void rightText(const std::string& text);
+/// Does `text` hold `part`, whatever their case?
+bool holdsText(const std::string& text, std::string_view part);
 
 }  // namespace lodestir

@@ -23,11 +23,36 @@ Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Compa
       graphPanel_(renderer, [this](const std::string& name) { mark(name); }, [this](const std::string& port) { showPort(port); }),
       pixelPanel_(renderer, [this](const std::string& name) { mark(name); }),
       comparisonPanel_(renderer, [this](const std::string& name) { mark(name); }, out),
+      scenePanel_(renderer, sceneHost(), out),
       out_(std::move(out)),
       wantsStatistics_(wantsStatistics) {}
 
 Rectangle Panels::pictureArea(glm::uvec2 window) const {
-    return {.corner = {int(panelWidth), 0}, .size = glm::max(glm::ivec2(window) - glm::ivec2(int(panelWidth), int(stripHeight)), glm::ivec2(0))};
+    const int beside = int(panelWidth) + (scenePanel_.isOpen() ? int(scenePanelWidth) : 0);
+    return {.corner = {int(panelWidth), 0}, .size = glm::max(glm::ivec2(window) - glm::ivec2(beside, int(stripHeight)), glm::ivec2(0))};
+}
+
+ScenePanel::Host Panels::sceneHost() {
+    return {.mark = [this](const std::string& name) { mark(name); },
+            .value = [this](const std::string& name) -> const Value& { return values_[name]; },
+            .set =
+                [this](const std::string& name, const Value& value) {
+                    values_[name] = value;
+                    send([name, value](ViewSession& s) { s.setParameter(name, value); });
+                },
+            .show = [this](const std::string& port) { showPort(port); },
+            .moveCamera = [this](const std::optional<CameraKey>& camera) { moveCamera(camera); },
+            .letGo = [this] { viewport_.setCamera({}); }};
+}
+
+/// The scene's panel, and what of it lies over the picture.
+void Panels::drawScene(const ViewStatus& status) {
+    const ImVec2 window = ImGui::GetIO().DisplaySize;
+    const Rectangle picture = pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)});
+    const auto clicked = viewport_.takeClick(status.picture);
+    if (clicked && scenePanel_.isOpen()) scenePanel_.click(*clicked);
+    if (!graphPanel_.isOpen() && status.picture.texels) scenePanel_.drawOver(status, picture, viewport_.toImage(status.picture));
+    scenePanel_.draw(status, viewport_.camera().value_or(status.camera.key), {{picture.corner.x + picture.size.x, 0}, {int(scenePanelWidth), picture.size.y}});
 }
 
 void Panels::mark(const std::string& name) {
@@ -127,6 +152,7 @@ void Panels::draw(const ViewStatus& status) {
     ImGui::End();
     ImGui::PopStyleColor();
 
+    drawScene(status);
     const Rectangle area = pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)});
     graphPanel_.draw(status, port_, area);
     if (!graphPanel_.isOpen()) pixelPanel_.draw(status, viewport_, viewport_.camera().value_or(status.camera.key), area);
@@ -154,6 +180,7 @@ void Panels::keys(const ViewStatus& status) {
     if (pressed(GLFW_KEY_Z, true, true) || pressed(GLFW_KEY_Y, true)) send([](ViewSession& s) { s.redo(); });
     if (pressed(GLFW_KEY_G)) graphPanel_.toggle();
     if (pressed(GLFW_KEY_P)) pixelPanel_.ask(viewport_);
+    if (pressed(GLFW_KEY_O)) scenePanel_.toggle();
     if (pressed(GLFW_KEY_SPACE)) send([paused = !paused_](ViewSession& s) { s.pause(paused); });
     if (pressed(GLFW_KEY_N)) send([](ViewSession& s) { s.step(); });
     if (pressed(GLFW_KEY_R)) send([](ViewSession& s) { s.resetHistory(); });
@@ -205,7 +232,10 @@ void Panels::drawGraph(const ViewStatus& status) {
         }
     }
     ImGui::Dummy({0, 1});
-    const float space = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 4 * space) / 5;
+    constexpr float space = 4;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {space, ImGui::GetStyle().ItemSpacing.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2, ImGui::GetStyle().FramePadding.y});
+    const float width = (ImGui::GetContentRegionAvail().x - 5 * space) / 6;
     if (button("pause", paused_ ? "Resume" : "Pause", "Space", width)) send([paused = !paused_](ViewSession& s) { s.pause(paused); });
     ImGui::SameLine();
     if (button("step", "Step", "one frame while paused: N", width)) send([](ViewSession& s) { s.step(); });
@@ -214,7 +244,10 @@ void Panels::drawGraph(const ViewStatus& status) {
     ImGui::SameLine();
     if (button("graph panel", "Graph", "passes and edges, to be edited: G", width)) graphPanel_.toggle();
     ImGui::SameLine();
+    if (button("scene panel", "Scene", "instances and levels, materials, lights, cameras: O", width)) scenePanel_.toggle();
+    ImGui::SameLine();
     if (button("help", "Help", "keys and mouse: H", width)) help_ = !help_;
+    ImGui::PopStyleVar(2);
     if (!status.busy.empty() && !graph_) quietText(status.busy + " ...");
 }
 

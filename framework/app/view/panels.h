@@ -6,6 +6,7 @@
 #include <framework/app/view/graph_panel.h>
 #include <framework/app/view/pixel_panel.h>
 #include <framework/app/view/render_thread.h>
+#include <framework/app/view/scene_panel.h>
 #include <framework/app/view/viewport.h>
 #include <framework/app/view/window.h>
 
@@ -65,6 +66,8 @@ private:
     void keepA(const ViewStatus& status);
     void runA(const ViewStatus& status);
     void moveCamera(const std::optional<CameraKey>& camera);
+    void drawScene(const ViewStatus& status);
+    ScenePanel::Host sceneHost();
     void send(RenderThread::Task task) { renderer_.post(std::move(task)); }
 
     RenderThread& renderer_;
@@ -74,6 +77,7 @@ private:
     GraphPanel graphPanel_;
     PixelPanel pixelPanel_;
     ComparisonPanel comparisonPanel_;
+    ScenePanel scenePanel_;
     Path out_;
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

@@ -174,6 +174,7 @@ void Panels::drawHelp() {
                                                {"E", "errors of B, and of A against a reference image"},
                                                {"G", "the graph: its passes and edges, to be edited"},
                                                {"P", "what happened to the pixel under the pointer"},
+                                               {"O", "the scene: levels, materials, lights, cameras; a click picks"},
                                                {"Ctrl + Z   Ctrl + Y", "take back what was edited or set; again"},
                                                {"S   Ctrl + S", "save what is shown; edits into the graph's file"},
                                                {"T", "save the last frames' times (CSV, Perfetto)"},

@@ -64,6 +64,9 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
         const ComparedNumbers& numbers = *status.compared;
         json["errors"] = {{"reference", numbers.reference}, {"points", numbers.b.size()}, {"a", last(numbers.a)}, {"b", last(numbers.b)}};
     }
+    if (const SceneState* scene = status.sceneState.get())
+        json["scene"] = {{"levels", scene->levels}, {"triangles", scene->triangles}, {"pixels", scene->pixels},
+                         {"picked", scene->picked ? int(scene->picked->instance) : -1}};
     if (status.statistics) json["mean"] = status.statistics->mean;
     for (const PassTime& pass : status.passes) json["runs"][pass.name] = pass.runs;
     for (const auto& [name, value] : panels.values())

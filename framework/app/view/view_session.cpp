@@ -192,11 +192,12 @@ void ViewSession::took(const FrameReport& report, double wallMilliseconds) {
     }
     status_.deviceMilliseconds = device;
     smooth(status_.wallMilliseconds, wallMilliseconds);
-    const CameraKey camera = session_->scene().cameraAt(float(report.frame));
+    const CameraKey camera = session_->scene().cameraAt(poseFrame(report.frame));
     if (!sameView(camera, lastCamera_)) status_.framesStill = 1;
     lastCamera_ = camera;
     status_.camera = {camera, scenePath_.has_value()};
     if (status_.framesStill == 1) sides_.restartErrors();
+    lookAtScene();
     capture();
 }
 
@@ -246,6 +247,7 @@ void ViewSession::describe() {
     }
     describeWires(*info);
     describeEdits(*info);
+    describeScene(info->contents);
     status_.graph = std::move(info);
 }
 
@@ -383,14 +385,16 @@ void ViewSession::resetCamera() {
     changedByHand(true);
 }
 
-void ViewSession::setParameter(const std::string& name, const Value& value) {
+void ViewSession::setParameter(const std::string& name, const Value& value) { setParameter(name, name, value); }
+
+void ViewSession::setParameter(const std::string& what, const std::string& name, const Value& value) {
     const auto given = given_.find(name);
     if (!session_ || given == given_.end()) return;
     const HandMade before = handMade();
     HandMade wanted = before;
     if (value == given->second) wanted.set.erase(name);
     else wanted.set[name] = value;
-    if (wanted.set != before.set && become(wanted)) history_.did(name, before);
+    if (wanted.set != before.set && become(wanted)) history_.did(what, before);
 }
 
 void ViewSession::setVariant(const std::string& variant) {

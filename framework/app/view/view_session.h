@@ -4,6 +4,7 @@
 #include <framework/app/session.h>
 #include <framework/app/view/compared_sides.h>
 #include <framework/app/view/edit_history.h>
+#include <framework/app/view/level_edit.h>
 #include <framework/app/view/view_state.h>
 #include <framework/core/file_watch.h>
 
@@ -63,6 +64,23 @@ public:
     void makeStudy(const Path& folder);  ///< a study file of both sides, with all that it needs
 
     /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
+    /// Edits of what the scene shows (view_session_scene.cpp). They are edits of the graph too: of passes that hand on the scene's World changed, which are
+    /// put in where there are none.
+    void watchScene(bool watched);       ///< whether the status says how it is after each frame
+    void pick(glm::vec2 place);          ///< what is seen at a place of the picture, 0..1
+    void choose(std::uint32_t instance); ///< as if it had been picked; `none`: nothing
+    void forceLevel(std::uint32_t instance, std::optional<int> level);  ///< `none`: of all; no level: as the policy has it
+    void moveLevel(std::uint32_t instance, int step);                   ///< the same, so much coarser than it is now
+    void addLevelColors();                                              ///< where the graph has none that shows levels in the picture
+    /// A parameter of the pass of a type whose parameter `key` is `subject` (no key: of the first such pass).
+    struct SceneEdit {
+        std::string type, key, subject, parameter;
+        Value value;
+    };
+    void editScene(const SceneEdit& wanted);
+    void playPath(const std::vector<CameraKey>& keys);  ///< from its first frame on; the camera is the viewer's own
+    void savePath(const Path& file, const std::vector<CameraKey>& keys);  ///< a scene file with this camera path
+
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
     /// What happened to a pixel in the frame that is shown, rendered again with the frames before it by a session that asks.
     void askPixel(glm::ivec2 pixel);
@@ -76,6 +94,7 @@ private:
     void adjust(Graph& graph);
     HandMade handMade() const { return {options_.changes.variant, options_.changes.patches, options_.changes.set, set_}; }
     bool apply(const std::map<std::string, Value>& set);
+    void setParameter(const std::string& what, const std::string& name, const Value& value);  ///< `what`: the step of the history
     bool become(const HandMade& wanted);
     void edit(const std::string& what, const std::string& replaced, const std::function<Json(const Graph&)>& patch);
     const PassType& typeNamed(const std::string& type) const;
@@ -85,6 +104,15 @@ private:
     void describe();
     void describeWires(GraphInfo& info) const;
     void describeEdits(GraphInfo& info) const;
+    void describeScene(SceneInfo& info) const;
+    void lookAtScene();
+    int nodeFor(const SceneEdit& wanted) const;
+    std::optional<Source> running(std::string_view type, std::string_view port) const;
+    template <class T> std::vector<T> read(const Source& source, std::size_t count) const;  ///< the first elements of a buffer
+    float poseFrame(std::uint32_t frame) const;
+    std::vector<std::uint32_t> levelsNow() const;
+    std::vector<ForcedLevel> forcedNow() const;
+    void force(const std::vector<ForcedLevel>& forced);
     void watchFiles();
     void changedByHand(bool restarts);
     void tell();
@@ -113,6 +141,9 @@ private:
     std::uint32_t pick_ = 0;
     EditHistory history_;
     std::vector<PassType> types_;              ///< all, once edits are offered
+    bool watchesScene_ = false;
+    std::optional<Picked> picked_;
+    std::array<glm::vec3, 2> pickedBox_{};     ///< around all levels of its mesh
     bool statistics_ = false, broken_ = false, stepping_ = false, rereadScene_ = false;
     std::vector<FrameReport> reports_;         ///< of the session's last frames
     CameraKey lastCamera_;

@@ -2,6 +2,7 @@
 // What the renderer of a viewer tells its window: plain values, handed over whole, so that neither thread touches what the other works on.
 #pragma once
 #include <framework/app/view/graph_edit.h>
+#include <framework/app/view/scene_state.h>
 #include <framework/app/view/texel_values.h>
 #include <framework/app/view/told_paths.h>
 #include <framework/gpu/buffer.h>
@@ -84,6 +85,7 @@ struct GraphInfo {
     std::vector<EdgeInfo> edges;
     std::vector<PortInfo> ports;
     EditInfo edits;
+    SceneInfo contents;  ///< of the scene
 };
 
 /// A port as it was after a frame.
@@ -160,6 +162,7 @@ struct ViewStatus {
     std::uint64_t builds = 0, reloads = 0;  ///< sessions built, sets of shaders taken over
     Picture picture;
     CameraState camera;
+    std::shared_ptr<const SceneState> sceneState;  ///< while somebody looks at it
     bool paused = false;
     std::string busy;                   ///< what takes long just now; empty: nothing
     std::vector<std::string> problems;  ///< "file:line:column: what; hint"

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace lodestir {
 
@@ -27,13 +28,19 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
     const glm::vec2 pointer = glm::vec2(io.MousePos.x, io.MousePos.y) - glm::vec2(place.corner);
     const bool inside = pointer.x >= 0 && pointer.y >= 0 && pointer.x < size.x && pointer.y < size.y;
     const bool free = inside && !io.WantCaptureMouse;
-    if (button_ >= 0 && !io.MouseDown[button_]) button_ = -1;
+    if (button_ >= 0 && !io.MouseDown[button_]) {
+        if (button_ == 0 && dragged_ < 3 && inside && !movesPicture_) clicked_ = pointer;
+        button_ = -1;
+    }
     for (int button = 0; button < 3 && button_ < 0; ++button)
         if (free && ImGui::IsMouseClicked(button)) {
             button_ = button;
             movesPicture_ = io.KeyCtrl;
+            dragged_ = 0;
         }
     const glm::vec2 drag = button_ >= 0 ? glm::vec2(io.MouseDelta.x, io.MouseDelta.y) : glm::vec2(0);
+
+    dragged_ += std::abs(drag.x) + std::abs(drag.y);
 
     std::optional<CameraKey> result;
     const CameraKey now = moved_.value_or(camera.key);
@@ -64,6 +71,15 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
 }
 
 void Viewport::zoomTo(float zoom) { zoom_ = zoom; }
+
+std::optional<glm::vec2> Viewport::takeClick(const Picture& picture) {
+    const auto clicked = std::exchange(clicked_, std::nullopt);
+    if (!clicked || picture.extent.x == 0) return std::nullopt;
+    const glm::vec3 pixel = toImage(picture) * glm::vec3(*clicked, 1);
+    const glm::vec2 place = glm::vec2(pixel) / pixel.z / glm::vec2(picture.extent);
+    const bool inside = pixel.z > 0 && glm::all(glm::greaterThanEqual(place, glm::vec2(0))) && glm::all(glm::lessThan(place, glm::vec2(1)));
+    return inside ? std::optional(place) : std::nullopt;
+}
 
 glm::mat3 Viewport::toImage(const Picture& picture) const {
     const glm::vec2 corner = centre_ - 0.5f * glm::vec2(place_.size) / scale_, image(picture.extent);

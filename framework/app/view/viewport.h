@@ -25,6 +25,8 @@ public:
     glm::vec2 inWindow(glm::vec2 place) const {
         return glm::vec2(place_.corner) + 0.5f * glm::vec2(place_.size) + scale_ * (place * glm::vec2(extent_) - centre_);
     }
+    /// Where in the image a left click was that moved nothing, once; `picture`: what was seen there.
+    std::optional<glm::vec2> takeClick(const Picture& picture);
     glm::ivec2 pixelUnderPointer() const { return pixel_; }  ///< {-1, -1}: none
 
 private:
@@ -37,6 +39,8 @@ private:
     glm::ivec2 pixel_{-1};
     int button_ = -1;             ///< that was pressed inside and is held
     bool movesPicture_ = false;
+    float dragged_ = 0;           ///< pixels, while a button is held
+    std::optional<glm::vec2> clicked_;  ///< pixel of the rectangle
     std::optional<CameraKey> moved_;
 };
 

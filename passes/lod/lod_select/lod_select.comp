@@ -23,27 +23,28 @@ void main() {
     bool known = historyValid() && worldPrev().instanceCount == w.instanceCount;
     uint last = known ? worldPrev().levels.at[instance] : 0, mesh = w.instances.at[instance].mesh;
     uint level = levels.at[instance];
-    if (argument(0) == uint(mode_fixed)) level = min(uint(params.level), w.meshes.at[mesh].levels - 1u);
-    if (argument(0) == uint(mode_distance)) level = levelByDistance(w, instance, params.distance, known, last, params.hysteresis);
-    if (argument(0) == uint(mode_screen_error)) level = levelByError(w, instance, uintBitsToFloat(argument(1)), known, last, params.hysteresis);
-    if (argument(0) == uint(mode_total_error))
+    uint chooses = level == NONE ? argument(0) : uint(mode_schedule);  // what is given is as if a schedule had it
+    if (chooses == uint(mode_fixed)) level = min(uint(params.level), w.meshes.at[mesh].levels - 1u);
+    if (chooses == uint(mode_distance)) level = levelByDistance(w, instance, params.distance, known, last, params.hysteresis);
+    if (chooses == uint(mode_screen_error)) level = levelByError(w, instance, uintBitsToFloat(argument(1)), known, last, params.hysteresis);
+    if (chooses == uint(mode_total_error))
         level = levelByTotalError(w, instance, TotalError(params.edges, params.samples, params.doubling), known, last, params.hysteresis);
     uint dissolve = 0;
-    bool same = known && level == last;
-    if (argument(0) == uint(mode_depth) || argument(0) == uint(mode_stochastic)) {
+    if (chooses == uint(mode_depth) || chooses == uint(mode_stochastic)) {
         // What glows shows all rays the same level, half way as with depth: lights are those of one level.
-        bool dissolves = argument(0) == uint(mode_stochastic) && w.instances.at[instance].firstLight == NONE;
+        bool dissolves = chooses == uint(mode_stochastic) && w.instances.at[instance].firstLight == NONE;
         DepthCurve curve = DepthCurve(params.curve == curve_log, w.sceneRadius * params.depthNear, w.sceneRadius * params.depthFar, params.bias);
         LevelShare between = levelShare(levelByDepth(w, instance, curve), w.meshes.at[mesh].levels, dissolves ? params.transition : 0, uint(params.steps));
         level = between.level;
-        same = known && level == last;
-        if (dissolves) {
-            dissolve = dissolveOf(between, uint(params.steps), params.numbers == numbers_each);
-            same = same && uint64_t(worldPrev().dissolves) != 0ul && worldPrev().dissolves.at[instance] == dissolve;
-            Words(uint64_t(w.dissolves)).at[instance] = dissolve;
-        }
+        if (dissolves) dissolve = dissolveOf(between, uint(params.steps), params.numbers == numbers_each);
+    }
+    bool same = known && level == last;
+    if (argument(0) == uint(mode_stochastic)) {
+        same = same && uint64_t(worldPrev().dissolves) != 0ul && worldPrev().dissolves.at[instance] == dissolve;
+        Words(uint64_t(w.dissolves)).at[instance] = dissolve;
     }
     levels.at[instance] = level;
+    if (instance < chosenCount()) storeChosen(instance, level);
     if (!same) atomicOr(levelsChanged.at[0], 1);
     if (known && level != last && instance < changedCount()) storeChanged(instance, frameIndex() + 1);
 

@@ -19,6 +19,7 @@ struct LodSelect final : Pass {
     State<Buffer<uint>> changed{this, "changed",
                                 "of each instance, the number of the frame after the one in which its level last changed; 0: it never has",
                                 Count::fixed(1 << 16)};
+    Out<Buffer<uint>>   chosen{this, "chosen", "level that each instance shows", Count::fixed(1 << 16)};
     Out<Buffer<uint>>   triangles{this, "triangles", "of the levels shown, over all instances: 64 bits, the low word first", Count::fixed(2)};
     Out<Buffer<uint>>   bytes{this, "bytes", "that the levels shown take, each once: 64 bits, the low word first", Count::fixed(2)};
     Scratch<Buffer<uint>> shown{this, "shown", "how many instances show level l of mesh m, at m * LEVELS + l", Count::reserved()};
@@ -28,6 +29,9 @@ struct LodSelect final : Pass {
                      "measured error projects below pixelError; those by which geometry and noise together are least at what so many samples cost; by depth; "
                      "by depth, and in between a share of the rays sees the next coarser one already; what is listed as light switches half way"};
     Param<int>          level{this, "level", 0, {0, int(LEVELS) - 1}, "of fixed: what all instances show; the coarsest where a mesh has fewer"};
+    Param<std::string>  force{this, "force", "",
+                              "levels that hold whatever the mode: \"rock=2, #3=0, *=auto\"; #3 is the fourth instance, * stands for all, auto is the mode's "
+                              "own again; the last that is said of an instance counts"};
     Param<float>        pixelError{this, "pixelError", 0, {0, 1000}, "largest error on the screen, pixels; 0: the scene file's"};
     Param<float>        hysteresis{this, "hysteresis", 0.2f, {0, 0.9f},
                                    "so that levels don't flicker, a coarser one is taken only where it stays below the limit by this share; of total_error, "
@@ -56,30 +60,34 @@ struct LodSelect final : Pass {
                                 "of stochastic: what a ray chooses by: one number for all instances, or one of its own for each"};
     Fact                levelsOfRays{this, "RAY_LEVELS", [this](const Scene& scene) { return modeOf(scene.lod.mode) == Mode::stochastic; }};
 
-    /// Levels given by frame number are uploaded, others are left to the shader, which in both cases notes whether any differs from last frame's.
+    /// Levels that are forced or given by frame number are uploaded, others (`none`) are left to the shader, which in both cases notes whether any differs
+    /// from last frame's.
     void execute(Frame& frame) override {
         const Scene& scene = frame.scene();
-        const Mode chosen = modeOf(scene.lod.mode);
+        const Mode wanted = modeOf(scene.lod.mode);
         if (depthFar <= depthNear)
             throw Error("depthFar of a lod_select lies no farther than its depthNear", "levels go from the finest at depthNear to the coarsest at depthFar");
-        std::vector<std::uint32_t> levels(scene.instances.size(), 0);
-        if (chosen == Mode::schedule) levels = scheduledLevels(scene, float(frame.index()) + float(int(lead)));
+        std::vector<std::uint32_t> levels = forcedLevels(scene, force), planned;
+        if (wanted == Mode::finest) planned.assign(levels.size(), 0);
+        if (wanted == Mode::schedule) planned = scheduledLevels(scene, float(frame.index()) + float(int(lead)));
+        for (std::size_t i = 0; i < planned.size(); ++i)
+            if (levels[i] == none) levels[i] = planned[i];
         const std::vector<std::uint32_t> given = levels;
         const auto count = std::uint32_t(levels.size());
-        levels.resize(chosen == Mode::stochastic ? 2 * count + 1 : count + 1);  // levelsChanged, dissolves
+        levels.resize(wanted == Mode::stochastic ? 2 * count + 1 : count + 1);  // levelsChanged, dissolves
         const Memory memory = frame.upload(levels, "levels");
         World made = frame.valueOf(world);
         made.levels = memory.address;
         made.levelsChanged = made.levels + count * sizeof(std::uint32_t);
-        if (chosen == Mode::stochastic) {
+        if (wanted == Mode::stochastic) {
             made.dissolves = made.levelsChanged + sizeof(std::uint32_t);
             made.frameKey = frameKey(frame);
         }
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep, std::as_bytes(std::span(given)));
         const float limit = pixelError > 0 ? float(pixelError) : scene.lod.pixelError;
         frame.reserve(shown, std::uint32_t(scene.meshes.size()) * LEVELS);
-        for (const Port* port : std::initializer_list<const Port*>{&shown, &triangles, &bytes}) frame.fill(*port, 0);
-        frame.dispatch(shader, {count, 1}, {std::uint32_t(chosen), std::bit_cast<std::uint32_t>(limit)});
+        for (const Port* port : std::initializer_list<const Port*>{&shown, &chosen, &triangles, &bytes}) frame.fill(*port, 0);
+        frame.dispatch(shader, {count, 1}, {std::uint32_t(wanted), std::bit_cast<std::uint32_t>(limit)});
     }
 
 private:

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// The scene panel's materials and lights: each knob is a parameter of a material_edit or light_edit, which is put in when it is first turned.
+#include <framework/app/view/scene_panel.h>
+
+#include <framework/app/view/panel_style.h>
+#include <framework/app/view/theme.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace lodestir {
+
+/// To the pass that is there, or to one that will be when the renderer has put it in.
+void ScenePanel::sendEdit(const std::string& edit, const ViewSession::SceneEdit& what) {
+    if (!edit.empty()) return host_.set(edit + "." + what.parameter, what.value);
+    pending_[what.type + what.subject + what.parameter] = what.value;
+    send([what](ViewSession& s) { s.editScene(what); });
+}
+
+void ScenePanel::drawKnob(const Knob& knob) {
+    const std::string name = knob.what.type + " " + knob.what.subject + "." + knob.what.parameter;
+    const auto pending = pending_.find(knob.what.type + knob.what.subject + knob.what.parameter);
+    const Value& now = !knob.edit.empty() ? host_.value(knob.edit + "." + knob.what.parameter) : pending != pending_.end() ? pending->second : knob.what.value;
+    const bool changed = now != knob.what.value;
+    float value = changed ? std::get<float>(now) : knob.shown;
+    ImGui::PushID(name.c_str());
+    ImGui::AlignTextToFramePadding();
+    if (changed)
+        ImGui::TextColored(palette().accent, "%s", knob.label);
+    else
+        ImGui::TextUnformatted(knob.label);
+    tip(knob.about);
+    ImGui::SameLine(112);
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 24);
+    ViewSession::SceneEdit what = knob.what;
+    const bool wide = knob.high - knob.low > 400;
+    const bool moved =
+        wide ? ImGui::DragFloat("##value", &value, std::max(0.01f, 0.02f * std::abs(value)), knob.low, knob.high, "%.4g", ImGuiSliderFlags_AlwaysClamp)
+             : ImGui::SliderFloat("##value", &value, knob.low, knob.high, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+    host_.mark(name);
+    tip(knob.about);
+    if (moved) {
+        what.value = value;
+        sendEdit(knob.edit, what);
+    }
+    if (changed) {
+        ImGui::SameLine();
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const float size = ImGui::GetFrameHeight();
+        if (ImGui::InvisibleButton("##back", {16, size})) sendEdit(knob.edit, knob.what);
+        host_.mark(name + " back");
+        ImGui::GetWindowDrawList()->AddCircleFilled({corner.x + 8, corner.y + 0.5f * size}, 4,
+                                                    ImGui::GetColorU32(ImGui::IsItemHovered() ? ImVec4(1, 1, 1, 1) : palette().accent));
+        tip("as the scene has it");
+    }
+    ImGui::PopID();
+}
+
+void ScenePanel::drawMaterials(const ViewStatus& status) {
+    const SceneInfo& info = graph_->contents;
+    const SceneState* state = status.sceneState.get();
+    ImGui::BeginChild("materials");
+    quietText(fmt::format("{} materials; click on the picture to find one", info.materials.size()));
+    for (std::size_t m = 0; m < info.materials.size(); ++m) {
+        const SceneInfo::Material& material = info.materials[m];
+        const bool picked = state && state->picked && state->picked->material == m;
+        ImGui::PushID(int(m));
+        if (picked) ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
+        if (picked) ImGui::SetNextItemOpen(true, ImGuiCond_Always);
+        const bool open = ImGui::CollapsingHeader(material.name.empty() ? fmt::format("material {}", m).c_str() : material.name.c_str());
+        if (picked) ImGui::PopStyleColor();
+        host_.mark("material: " + material.name);
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {high.x - 26, low.y + 4}, {high.x - 8, high.y - 4},
+            ImGui::GetColorU32(ImVec4(std::sqrt(material.baseColor.x), std::sqrt(material.baseColor.y), std::sqrt(material.baseColor.z), 1)), 3);
+        if (open && material.name.empty()) {
+            quietText("a material without a name can't be changed by itself");
+        } else if (open) {
+            const auto knob = [&](const char* label, const char* parameter, const char* about, float neutral, float lowest, float highest, float shown) {
+                drawKnob({.label = label,
+                          .about = about,
+                          .edit = material.edit,
+                          .what = {.type = "material_edit", .key = "material", .subject = material.name, .parameter = parameter, .value = neutral},
+                          .low = lowest,
+                          .high = highest,
+                          .shown = shown});
+            };
+            knob("red", "red", "factor on the red of the base colour", 1, 0, 2, 1);
+            knob("green", "green", "factor on its green", 1, 0, 2, 1);
+            knob("blue", "blue", "factor on its blue", 1, 0, 2, 1);
+            knob("roughness", "roughness", "perceptual; its map scales it", -1, 0, 1, material.roughness);
+            knob("metal", "metallic", "share of metal; its map scales it", -1, 0, 1, material.metallic);
+            if (material.emission != glm::vec3(0))
+                knob("emission", "emission", "factor on what it emits; how often it is chosen as a light stays", 1, 0, 20, 1);
+        }
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+}
+
+void ScenePanel::drawLights(const ViewStatus&) {
+    const SceneInfo& info = graph_->contents;
+    ImGui::BeginChild("lights");
+    heading("ENVIRONMENT");
+    ImGui::SameLine();
+    rightText(info.environment);
+    const auto environment = [&](const char* label, const char* parameter, const char* about, float neutral, float low, float high) {
+        drawKnob({.label = label,
+                  .about = about,
+                  .edit = info.environmentEdit,
+                  .what = {.type = "light_edit", .key = {}, .subject = {}, .parameter = parameter, .value = neutral},
+                  .low = low,
+                  .high = high,
+                  .shown = neutral});
+    };
+    environment("strength", "environment", "factor on its radiance; 0: it is dark", 1, 0, 4);
+    environment("turn", "turn", "degrees around the vertical axis", 0, -180, 180);
+    heading(fmt::format("LIGHTS WITHOUT EXTENT  {}", info.lights.size()).c_str());
+    for (const SceneInfo::Light& light : info.lights) {
+        ImGui::TextUnformatted(light.name.c_str());
+        ImGui::SameLine();
+        rightText(fmt::format("{}  {:.4g} {}", light.type, light.intensity, light.unit));
+        drawKnob({.label = "intensity",
+                  .about = "factor on what the scene says; 0: it is off",
+                  .edit = light.edit,
+                  .what = {.type = "light_edit", .key = "light", .subject = light.name, .parameter = "intensity", .value = 1.0f},
+                  .low = 0,
+                  .high = 20,
+                  .shown = 1});
+    }
+    heading("SURFACES THAT EMIT");
+    for (const SceneInfo::Material& material : info.materials) {
+        if (material.emission == glm::vec3(0) || material.name.empty()) continue;
+        ImGui::TextUnformatted(material.name.c_str());
+        ImGui::SameLine();
+        rightText(fmt::format("{:.3g} {:.3g} {:.3g}", material.emission.x, material.emission.y, material.emission.z));
+        drawKnob({.label = "emission",
+                  .about = "factor on its radiance; 0: it is off",
+                  .edit = material.edit,
+                  .what = {.type = "material_edit", .key = "material", .subject = material.name, .parameter = "emission", .value = 1.0f},
+                  .low = 0,
+                  .high = 20,
+                  .shown = 1});
+    }
+    ImGui::EndChild();
+}
+
+}  // namespace lodestir
