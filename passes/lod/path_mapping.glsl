@@ -21,7 +21,7 @@ struct RayNumbers {
 };
 
 /// Takes a point of texture coordinate `uv` from one World to another. False: it can't be found there. `jacobian`: barycentric area there per area here.
-/// `now`: one of the two Worlds, the same there and back, so that tau can be undone.
+/// `now`: one of the two Worlds, the same there and back, so that tau can be undone: a mesh that deforms has another shape in each.
 bool mapSurfacePoint(World from, World to, World now, RayNumbers numbers, UvIndex index, bool mapped, LevelMapping mapping, inout SurfacePoint p, vec2 uv,
                      out float jacobian) {
     jacobian = 1.0;
@@ -30,7 +30,7 @@ bool mapSurfacePoint(World from, World to, World now, RayNumbers numbers, UvInde
     if (!mapped || max(before, after) >= LEVELS) return false;  // hidden in one of them
     Placement placed = placementOf(now, p.instance);
     mat3 space = mapping.worldSpace ? transpose(mat3(placed.row0, placed.row1, placed.row2)) : mat3(1.0);
-    MappedPoint found = mapPoint(to, index, to.instances.at[p.instance].mesh, p.primitive, uv, before, after, mapping.matching, space);
+    MappedPoint found = mapPoint(now, index, now.instances.at[p.instance].mesh, p.primitive, uv, before, after, mapping.matching, space);
     p.primitive = found.primitive;
     p.barycentrics = found.barycentrics;
     jacobian = found.jacobian;

@@ -19,7 +19,7 @@ float twiceUvArea(World w, uint primitive) {
     return abs(e.x * f.y - e.y * f.x);
 }
 
-/// Position for comparing distances: object space, alike in both directions whatever moves.
+/// Position for comparing distances: object space, whatever the instance does.
 vec3 restPosition(World w, uint primitive, vec2 barycentrics) { return pointOn(w, cornersOf(w, primitive), barycentrics).position; }
 
 /// Partner of the triangle `primitive` among `to`; NONE: it has none. Algorithm 1: the closest pair of both sets is taken out again and
@@ -55,8 +55,8 @@ uint matchGreedily(World w, UvFound from, UvFound to, uint primitive, bool fromI
 }
 
 /// tau of a point of `mesh`: triangle `primitive` of level `from`, texture coordinate uv, to level `to`. `matching` false: only where both
-/// levels have one triangle there. Both Worlds of a shift have the same meshes; w is either. `space`: mat3(1) compares distances in the mesh's own
-/// space; a way there and back needs the same one.
+/// levels have one triangle there. Both Worlds of a shift have the same meshes; w is either, of which a way there and back needs the same one, whose pose
+/// it is where the mesh deforms. `space`: mat3(1) compares distances in the mesh's own space; a way there and back needs the same one.
 MappedPoint mapPoint(World w, UvIndex index, uint mesh, uint primitive, vec2 uv, uint from, uint to, bool matching, mat3 space) {
     MappedPoint none = MappedPoint(NONE, vec2(0.0), 0.0);
     UvFound here, there;

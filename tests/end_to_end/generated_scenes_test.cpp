@@ -134,7 +134,7 @@ TEST(GeneratedScenes, TheCreaturesAreOfEightLevels) {
     EXPECT_EQ(std::ranges::count(scene.instances, index, &Instance::mesh), 64 * 60);
 }
 
-// Studies of level switches measure around frame 40, where nothing else may happen but that the camera goes on. What is a light would keep its level.
+// Studies of level switches measure around frame 40, where nothing else may happen but that the camera goes on: no light may switch.
 TEST(GeneratedScenes, LevelsSwitchAtFrame40BeforeAMovingCamera) {
     struct Switching {
         const char *scene, *mesh;
@@ -162,6 +162,57 @@ TEST(GeneratedScenes, LevelsSwitchAtFrame40BeforeAMovingCamera) {
         const auto from = scene.cameraAt(39), to = scene.cameraAt(41);
         EXPECT_TRUE(from.position != to.position || from.focus != to.focus);
     }
+}
+
+/// Of all that glows in a scene, at the levels of a frame: triangles, and their area in space.
+struct Glowing {
+    std::size_t triangles = 0;
+    double area = 0;
+};
+
+std::map<std::string, Glowing> glowingOf(const Scene& scene, float frame) {
+    std::map<std::string, Glowing> glowing;
+    const std::vector<std::uint32_t> shown = levelsAt(scene, frame);
+    const auto nodes = scene.nodeMatrices(frame);
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const MeshLevel& level = scene.meshes[instance.mesh].levels[shown[i]];
+        const glm::mat3 linear(scene.instanceMatrix(instance, nodes));
+        for (std::size_t t = 0; t < level.triangles.size(); ++t) {
+            if (!scene.materials[level.materials[t]].isLight()) continue;
+            const auto at = [&](int k) { return linear * level.positions[level.triangles[t][k]]; };
+            Glowing& g = glowing[instance.name];
+            ++g.triangles;
+            g.area += 0.5 * glm::length(glm::cross(at(1) - at(0), at(2) - at(0)));
+        }
+    }
+    return glowing;
+}
+
+// Whether light is found without bias across a switch is judged where there is no other light than what switches, and its area, hence power, changes.
+TEST(GeneratedScenes, AllThatGlowsSwitches) {
+    const Scene scene = loaded("ensemble_emitter");
+    EXPECT_TRUE(scene.lights.empty());
+    const auto before = glowingOf(scene, 39), after = glowingOf(scene, 40);
+    EXPECT_EQ(before.size(), 3u);
+    for (const auto& [name, glowing] : before) {
+        const Glowing& other = after.at(name);
+        const double triangles = double(glowing.triangles) / double(other.triangles), area = glowing.area / other.area;
+        EXPECT_GT(std::max(triangles, 1 / triangles), 8) << name;
+        EXPECT_GT(std::max(area, 1 / area), 1.03) << name;
+    }
+}
+
+// The rabbit is in motion where it switches.
+TEST(GeneratedScenes, WhatBendsSwitches) {
+    const Scene scene = loaded("ensemble_bending");
+    const auto rabbit = std::ranges::find(scene.meshes, "rabbit", &Mesh::name);
+    ASSERT_NE(rabbit, scene.meshes.end());
+    EXPECT_TRUE(rabbit->deforms());
+    EXPECT_EQ(rabbit->levels.size(), 3u);
+    EXPECT_NE(levelsAt(scene, 39), levelsAt(scene, 40));
+    const auto index = std::size_t(rabbit - scene.meshes.begin());
+    EXPECT_GT(std::abs(scene.morphWeights(40)[index][0] - scene.morphWeights(39)[index][0]), 0.05f);
 }
 
 // Convergence under motion is judged without gloss, which would move of its own.

@@ -38,6 +38,7 @@ struct LevelModelLook {
     glm::dvec3 emission{0};
     bool unlit = false;
     std::optional<glm::dvec3> moveTo = {};  ///< over one second, turning about +Y by 40 degrees meanwhile
+    std::function<glm::dvec3(glm::dvec2)> shift = {};  ///< what a morph target adds over one second; none: the mesh doesn't deform
 };
 
 /// Writes a model of one node, `name`, whose mesh has these levels.
@@ -56,11 +57,15 @@ inline Path writeLevels(const Path& folder, const std::string& name, const std::
     }
     for (std::size_t l = 0; l < levels.size(); ++l) {
         const SheetLevel& level = levels[l];
-        std::vector<float> positions, uvs, normals;
+        std::vector<float> positions, shifts, uvs, normals;
         const auto vertex = [&](int x, int y, glm::dvec2 cell) {
             const glm::dvec2 at(double(x) / level.cells, double(y) / level.cells);
             const glm::vec3 p(level.place(at));
             positions.insert(positions.end(), {p.x, p.y, p.z});
+            if (look.shift) {
+                const glm::vec3 by(look.shift(at));
+                shifts.insert(shifts.end(), {by.x, by.y, by.z});
+            }
             if (const auto uv = level.uv({at, cell})) uvs.insert(uvs.end(), {float(uv->x), float(uv->y)});
             if (level.normal) normals.insert(normals.end(), {float(level.normal->x), float(level.normal->y), float(level.normal->z)});
         };
@@ -75,6 +80,7 @@ inline Path writeLevels(const Path& folder, const std::string& name, const std::
         nlohmann::json primitive = {{"attributes", {{"POSITION", model.positions(positions)}}}, {"material", 0}};
         if (!uvs.empty()) primitive["attributes"]["TEXCOORD_0"] = model.accessor(uvs, 5126, "VEC2", 2);
         if (!normals.empty()) primitive["attributes"]["NORMAL"] = model.accessor(normals, 5126, "VEC3", 3);
+        if (look.shift) primitive["targets"] = {{{"POSITION", model.positions(shifts)}}};
         model.addMesh(primitive);
         if (l > 0) model.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"].push_back(l);
     }
@@ -89,6 +95,11 @@ inline Path writeLevels(const Path& folder, const std::string& name, const std::
         model.json["animations"] = {{{"samplers", {{{"input", times}, {"output", places}}, {{"input", times}, {"output", turns}}}},
                                      {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
                                                    {{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}}};
+    }
+    if (look.shift) {
+        const int times = model.accessor(std::vector<float>{0, 1}, 5126, "SCALAR", 1);
+        model.json["animations"].push_back({{"samplers", {{{"input", times}, {"output", times}}}},
+                                            {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}});
     }
     return model.write(folder / (name + ".gltf"));
 }
