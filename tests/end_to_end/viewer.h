@@ -67,7 +67,11 @@ public:
     OrderedJson report() { return await("a report", [](const OrderedJson&) { return true; }); }
 
     void point(double x, double y) const { display_.xdotool({"mousemove", std::to_string(int(x)), std::to_string(int(y))}); }
-    void key(const std::string& key) const { display_.xdotool({"key", key}); }
+    void key(const std::string& key) {
+        ++actions_;
+        display_.xdotool({"key", key});
+    }
+    int actions() const { return actions_; }  ///< clicks, drags and keys so far
     /// The place of a widget once it rests; one that is scrolled away is scrolled to.
     OrderedJson find(const std::string& widget) {
         // A menu takes two drawings to find its place: the box has to be the same for a while.
@@ -108,6 +112,7 @@ public:
         seen([&] { display_.xdotool({"mouseup", button}); });
     }
     void click(const std::string& widget, double across = 0.5, const std::string& button = "1") {
+        ++actions_;
         pointAt(widget, across);
         press(button);
         release(button);
@@ -118,6 +123,7 @@ public:
         return {area[0].get<double>() + (0.5 + right) * area[2].get<double>(), area[1].get<double>() + (0.5 + down) * area[3].get<double>()};
     }
     void drag(const std::string& button, double right, double down) {
+        ++actions_;
         const auto [x, y] = picture();
         const auto [toX, toY] = picture(right, down);
         point(x, y);
@@ -159,6 +165,7 @@ private:
     const VirtualDisplay& display_;
     Path report_;
     Process process_;
+    int actions_ = 0;
 };
 
 /// A test with a display of its own; skipped where there can't be one.
