@@ -24,7 +24,6 @@ struct SceneInfo {
         std::string name;
         glm::vec3 baseColor{1}, emission{0};
         float roughness = 1, metallic = 1;
-        bool mapped = false;  ///< textures scale the numbers above
         std::string edit;     ///< name of the material_edit that is for it alone; empty: none
     };
     struct Light {
