@@ -27,7 +27,8 @@ protected:
         for (std::string line; std::getline(page, line);) {
             if (line.starts_with("## ")) inside = line == "## Ten things, and the clicks they take";
             const std::size_t last = line.rfind('|', line.size() - 2);
-            if (inside && line.starts_with("| ") && std::isdigit(static_cast<unsigned char>(line[last + 2]))) counts.push_back(std::stoi(line.substr(last + 2)));
+            const bool isRow = inside && line.starts_with("| ") && std::isdigit(static_cast<unsigned char>(line[last + 2]));
+            if (isRow) counts.push_back(std::stoi(line.substr(last + 2)));
         }
         return counts;
     }
@@ -54,7 +55,8 @@ TEST_F(ViewTasks, TakeTheClicksThatAreTold) {
         };
     };
 
-    task("the pass that takes longest", [] {}, [](const OrderedJson& r) { return r["widgets"].contains("times of spatial") && r["runs"]["spatial"].get<int>() > 0; });
+    task("the pass that takes longest", [] {},
+         [](const OrderedJson& r) { return r["widgets"].contains("times of spatial") && r["runs"]["spatial"].get<int>() > 0; });
     task("what a pass hands on", [&] { viewer.key("g"), viewer.click("out: hits.normal"); },
          [](const OrderedJson& r) { return r["shown"] == "hits.normal"; });
     task("another way of reuse", [&] { viewer.click("node: temporal", 0.5, "3"), viewer.click("menu: swap"), viewer.click("swap: temporal_reprojection"); },
