@@ -8,9 +8,9 @@ namespace {
 
 class LightEdit : public FolderTest {
 protected:
-    /// A bowl below two lamps and an environment.
-    Path writeScene(const OrderedJson& environment, const OrderedJson& lights) {
-        writeLevels(folder, "bowl", {{.cells = 6, .place = bowl}});
+    /// A bowl of two levels below lamps and an environment.
+    Path writeScene(const OrderedJson& environment, const OrderedJson& lights, const LevelModelLook& look = {}) {
+        writeLevels(folder, "bowl", {{.cells = 6, .place = bowl}, {.cells = 3, .place = bowl}}, look);
         const OrderedJson scene = {{"format", 1},
                                    {"models", {{"bowl", {{"file", "bowl.gltf"}}}}},
                                    {"environment", environment},
@@ -56,6 +56,22 @@ TEST_F(LightEdit, LampsAreScaled) {
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("did you mean \"right\""), std::string::npos) << error.what();
     }
+}
+
+// If this fails, what glows at a coarser level is forgotten when any light is edited.
+TEST_F(LightEdit, KeepsLightsOfCoarserLevels) {
+    const Path scene = writeScene({{"type", "constant"}, {"strength", 0}}, OrderedJson::array({lamp("lamp", 1)}), {.emission = {2, 3, 4}});
+    OrderedJson passes{{"lod", {{"type", "lod_select"}, {"set", {{"mode", "fixed"}, {"level", 1}}}}},
+                       {"edit", {{"type", "light_edit"}, {"in", {{"world", "lod.world"}}}}},
+                       {"trace", {{"type", "path_tracer"}, {"in", {{"world", "edit.world"}}}, {"set", {{"spp", 2}}}}}};
+    Frames edited(scene, {32, 18}, passes, {"trace.color"});
+    passes["edit"]["off"] = true;
+    Frames plain(scene, {32, 18}, passes, {"trace.color"});
+    const ImageData expected = picture(plain);
+    EXPECT_GT(sumOf(expected), 32 * 18 + 1);
+    EXPECT_TRUE(picture(edited).values == expected.values);
+    edited.set("edit.intensity", Json(2.0));
+    EXPECT_FALSE(picture(edited).values == expected.values);
 }
 
 TEST_F(LightEdit, EnvironmentIsScaledAndTurned) {

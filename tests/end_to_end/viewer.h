@@ -117,6 +117,14 @@ public:
         press(button);
         release(button);
     }
+    /// Along a widget, from one share of its width to another.
+    void dragAcross(const std::string& widget, double from, double to) {
+        ++actions_;
+        pointAt(widget, from);
+        press();
+        pointAt(widget, to);
+        release();
+    }
     /// The middle of the picture, moved by part of its size.
     std::pair<double, double> picture(double right = 0, double down = 0) {
         const OrderedJson area = report()["area"];

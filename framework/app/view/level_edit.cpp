@@ -6,11 +6,6 @@
 
 namespace lodestir {
 
-std::uint32_t levelsToChoose(const Scene& scene, const Mesh& mesh) {
-    const auto isLight = [&](std::uint32_t material) { return scene.materials[material].isLight(); };
-    return std::ranges::any_of(mesh.levels[0].materials, isLight) ? 1 : std::uint32_t(mesh.levels.size());
-}
-
 std::vector<ForcedLevel> withForced(const Scene& scene, std::vector<ForcedLevel> forced, std::uint32_t instance, std::optional<int> level) {
     const std::string who = whoIs(scene, instance);
     std::erase_if(forced, [&](const ForcedLevel& f) { return f.who == who; });
@@ -21,17 +16,16 @@ std::vector<ForcedLevel> withForced(const Scene& scene, std::vector<ForcedLevel>
 std::vector<ForcedLevel> withAllMoved(const Scene& scene, std::span<const std::uint32_t> now, int step) {
     std::vector<int> moved(scene.instances.size());
     std::array<std::size_t, maxLevels> count{};
-    std::vector<std::uint32_t> levels;
-    for (const Mesh& mesh : scene.meshes) levels.push_back(levelsToChoose(scene, mesh));
+    const auto coarsest = [&](std::size_t instance) { return int(scene.meshes[scene.instances[instance].mesh].levels.size()) - 1; };
     for (std::size_t i = 0; i < moved.size(); ++i) {
-        moved[i] = std::clamp(int(now[i]) + step, 0, int(levels[scene.instances[i].mesh]) - 1);
+        moved[i] = std::clamp(int(now[i]) + step, 0, coarsest(i));
         ++count[std::size_t(moved[i])];
     }
     // The level of most is said of all, and then what the others show, by number: a frame reads thousands of those quickly.
     const int most = int(std::ranges::max_element(count) - count.begin());
     std::vector<ForcedLevel> forced{{"*", most}};
     for (std::uint32_t i = 0; i < moved.size(); ++i)
-        if (moved[i] != std::min(most, int(levels[scene.instances[i].mesh]) - 1)) forced.push_back({"#" + std::to_string(i), moved[i]});
+        if (moved[i] != std::min(most, coarsest(i))) forced.push_back({"#" + std::to_string(i), moved[i]});
     return forced;
 }
 

@@ -7,9 +7,6 @@
 
 namespace lodestir {
 
-/// Levels of a mesh that can be shown: one where it has to stay at its finest, because its triangles are lights.
-LODESTIR_API std::uint32_t levelsToChoose(const Scene& scene, const Mesh& mesh);
-
 /// With one instance at a level, or as the policy has it (no level).
 LODESTIR_API std::vector<ForcedLevel> withForced(const Scene& scene, std::vector<ForcedLevel> forced, std::uint32_t instance, std::optional<int> level);
 /// With all instances a step finer (below 0) or coarser than now, as far as their meshes have levels.

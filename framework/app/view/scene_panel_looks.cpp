@@ -117,18 +117,17 @@ void ScenePanel::drawLights(const ViewStatus&) {
     };
     environment("strength", "environment", "factor on its radiance; 0: it is dark", 1, 0, 4);
     environment("turn", "turn", "degrees around the vertical axis", 0, -180, 180);
+    const auto factor = [&](const char* parameter, const char* about, const std::string& edit, ViewSession::SceneEdit what) {
+        what.parameter = parameter;
+        what.value = 1.0f;
+        drawKnob({.label = parameter, .about = about, .edit = edit, .what = what, .low = 0, .high = 20, .shown = 1});
+    };
     heading(fmt::format("LIGHTS WITHOUT EXTENT  {}", info.lights.size()).c_str());
     for (const SceneInfo::Light& light : info.lights) {
         ImGui::TextUnformatted(light.name.c_str());
         ImGui::SameLine();
         rightText(fmt::format("{}  {:.4g} {}", light.type, light.intensity, light.unit));
-        drawKnob({.label = "intensity",
-                  .about = "factor on what the scene says; 0: it is off",
-                  .edit = light.edit,
-                  .what = {.type = "light_edit", .key = "light", .subject = light.name, .parameter = "intensity", .value = 1.0f},
-                  .low = 0,
-                  .high = 20,
-                  .shown = 1});
+        factor("intensity", "factor on what the scene says; 0: it is off", light.edit, {.type = "light_edit", .key = "light", .subject = light.name});
     }
     heading("SURFACES THAT EMIT");
     for (const SceneInfo::Material& material : info.materials) {
@@ -136,13 +135,7 @@ void ScenePanel::drawLights(const ViewStatus&) {
         ImGui::TextUnformatted(material.name.c_str());
         ImGui::SameLine();
         rightText(fmt::format("{:.3g} {:.3g} {:.3g}", material.emission.x, material.emission.y, material.emission.z));
-        drawKnob({.label = "emission",
-                  .about = "factor on its radiance; 0: it is off",
-                  .edit = material.edit,
-                  .what = {.type = "material_edit", .key = "material", .subject = material.name, .parameter = "emission", .value = 1.0f},
-                  .low = 0,
-                  .high = 20,
-                  .shown = 1});
+        factor("emission", "factor on its radiance; 0: it is off", material.edit, {.type = "material_edit", .key = "material", .subject = material.name});
     }
     ImGui::EndChild();
 }

@@ -549,6 +549,12 @@ void ViewSession::show(const std::string& port, const TexelLayout& layout, std::
     tell();
 }
 
+/// What was done last, for the window and the log.
+void ViewSession::noteDone(const std::string& what) {
+    status_.note = what;
+    log::note("{}", what);
+}
+
 void ViewSession::save(const Path& folder) {
     if (!session_) return;
     attempt([&] {
@@ -558,8 +564,7 @@ void ViewSession::save(const Path& folder) {
         const bool image = session_->graph().port(source).type.kind == PortType::Kind::image;
         if (image) writePng(path.string() + ".png", preview(session_->runner().readImage(source)));
         if (status_.a.kind == SideA::Kind::live && status_.a.picture.texels) sides_.live()->save(folder);
-        status_.note = fmt::format("wrote {}{}", path.string(), image ? ".exr and .png" : ".npy");
-        log::note("{}", status_.note);
+        noteDone(fmt::format("wrote {}{}", path.string(), image ? ".exr and .png" : ".npy"));
     });
     tell();
 }
@@ -569,8 +574,7 @@ void ViewSession::saveTimes(const Path& folder) {
     attempt([&] {
         writeFile(folder / "times.csv", timesCsv(reports_));
         writeFile(folder / "trace.json", traceJson(reports_, status_.graph->device).dump() + "\n");
-        status_.note = fmt::format("wrote {}: {} frames; trace.json beside it", (folder / "times.csv").string(), reports_.size());
-        log::note("{}", status_.note);
+        noteDone(fmt::format("wrote {}: {} frames; trace.json beside it", (folder / "times.csv").string(), reports_.size()));
     });
     tell();
 }
@@ -579,8 +583,7 @@ void ViewSession::saveGraph(const Path& file) {
     if (!session_) return;
     attempt([&] {
         writeFile(file, session_->graph().resolved().dump(2) + "\n");
-        status_.note = "wrote " + file.string();
-        log::note("{}", status_.note);
+        noteDone("wrote " + file.string());
     });
     tell();
 }
@@ -600,8 +603,7 @@ void ViewSession::saveIntoGraph() {
         options_.changes.set.clear();
         set_.clear();
         history_ = {};
-        status_.note = "wrote into " + file.string();
-        log::note("{}", status_.note);
+        noteDone("wrote into " + file.string());
     });
     tell();  // reloadChanged() sees to the rest
 }

@@ -63,7 +63,6 @@ public:
     void releaseA();
     void makeStudy(const Path& folder);  ///< a study file of both sides, with all that it needs
 
-    /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
     /// Edits of what the scene shows (view_session_scene.cpp). They are edits of the graph too: of passes that hand on the scene's World changed, which are
     /// put in where there are none.
     void watchScene(bool watched);       ///< whether the status says how it is after each frame
@@ -81,6 +80,7 @@ public:
     void playPath(const std::vector<CameraKey>& keys);  ///< from its first frame on; the camera is the viewer's own
     void savePath(const Path& file, const std::vector<CameraKey>& keys);  ///< a scene file with this camera path
 
+    /// What is captured after each frame, and the number of it that statistics are made of (`statistics`: whether they are).
     void show(const std::string& port, const TexelLayout& layout, std::uint32_t pick, bool statistics);
     /// What happened to a pixel in the frame that is shown, rendered again with the frames before it by a session that asks.
     void askPixel(glm::ivec2 pixel);
@@ -116,6 +116,7 @@ private:
     void watchFiles();
     void changedByHand(bool restarts);
     void tell();
+    void noteDone(const std::string& what);
     std::function<void(std::size_t, std::size_t)> compiling();
     void compareFirst();
     SideGraph sideGraph() const;

@@ -32,7 +32,7 @@ void ViewSession::askPixel(glm::ivec2 pixel) {
             asking_ = std::make_unique<Session>(options_, SessionParts{.device = device_,
                                                                        .scene = session_->sharedScene(),
                                                                        .adjust = setAlike,
-                                                                       .slice = 20,
+                                                                       .slice = slice,
                                                                        .probe = true,
                                                                        .compiled = compiling()});
         }

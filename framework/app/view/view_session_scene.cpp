@@ -91,7 +91,7 @@ void ViewSession::describeScene(SceneInfo& info) const {
     const Scene& scene = session_->scene();
     for (const Mesh& mesh : scene.meshes) {
         SceneInfo::Mesh& described = info.meshes.emplace_back();
-        for (std::size_t l = 0; l < levelsToChoose(scene, mesh); ++l) described.triangles.push_back(mesh.levels[l].triangles.size());
+        for (const MeshLevel& level : mesh.levels) described.triangles.push_back(level.triangles.size());
     }
     const std::vector<std::string> titles = titlesOf(scene);
     for (std::size_t i = 0; i < titles.size(); ++i) info.instances.push_back({titles[i], scene.instances[i].mesh});
@@ -268,7 +268,7 @@ void ViewSession::playPath(const std::vector<CameraKey>& keys) {
     CameraPath& path = session_->sharedScene()->camera;
     if (!scenePath_) scenePath_ = path;
     path = {.keys = keys};
-    session_->runner().reset();
+    resetBoth();
     setFrame(std::uint32_t(std::max(keys.front().frame, 0.0f)));
 }
 
@@ -276,8 +276,7 @@ void ViewSession::savePath(const Path& file, const std::vector<CameraKey>& keys)
     if (!session_) return;
     attempt([&] {
         writeFile(file, sceneWithPath(session_->scene().file, keys, file.parent_path()).dump(2) + "\n");
-        status_.note = "wrote " + file.string();
-        log::note("{}", status_.note);
+        noteDone("wrote " + file.string());
     });
     tell();
 }

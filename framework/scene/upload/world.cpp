@@ -134,7 +134,7 @@ struct WorldBuilder::Moving {
     gpu::Buffer traceInstances, instances, closing, lights, lightLevels;
     bool moves = false;  ///< some instance, while the shutter is open
     glm::vec3 gridBase{0}, gridScale{1}, center{0};
-    std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, environmentLight = NONE;
+    std::uint32_t topRoot = bvh_ref::empty, lightCount = 0, lightRecords = 0, environmentLight = NONE;
     float radius = 1;
 };
 
@@ -265,6 +265,7 @@ std::shared_ptr<const WorldBuilder::Moving> WorldBuilder::makeMoving(const Pose&
     moving->lights = gpu::makeBuffer(device_, std::span<const LightRecord>(lights.lights), "lights");
     moving->lightLevels = gpu::makeBuffer(device_, std::span<const std::uint32_t>(lights.levels), "light levels");
     moving->lightCount = lights.count;
+    moving->lightRecords = std::uint32_t(lights.lights.size());
     moving->environmentLight = lights.environmentLight;
     return moving;
 }
@@ -306,6 +307,7 @@ World WorldBuilder::placedWorld() const {
     w.environmentRotation = scene_.environment.rotation;
     w.environmentLight = moving_->environmentLight;
     w.lightCount = moving_->lightCount;
+    w.lightRecords = moving_->lightRecords;
     w.sceneRadius = moving_->radius;
     w.sceneCenter = moving_->center;
     return w;
@@ -366,7 +368,7 @@ FrameWorld WorldBuilder::objects(const World* posed) {
     w.levelsChanged = w.levels + records.size() * sizeof(std::uint32_t);
     w.instanceCount = std::uint32_t(records.size());
     w.topRoot = bvh_ref::empty;
-    w.lightCount = 0;
+    w.lightCount = w.lightRecords = 0;
     w.environmentLight = NONE;
     return {w, keep};
 }

@@ -235,6 +235,7 @@ struct World {
     float environmentRotation;                       // radians around +Y
     uint environmentLight;                           // index in lights, NONE: black
     uint lightCount;
+    uint lightRecords;                               // in lights, those of coarser levels too
     float sceneRadius;                               // of the sphere around all instances
     vec3 sceneCenter;
 

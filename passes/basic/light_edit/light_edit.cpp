@@ -17,14 +17,12 @@ struct LightEdit final : Pass {
     Param<float> turn{this, "turn", 0, {-360, 360}, "degrees that the environment is turned around the vertical axis"};
     PassThrough off{this, world, worldOut};
 
-    /// Lights without extent come behind the triangles that emit, in the scene's order; the environment is the last (scene/upload/light_list.h).
+    /// Lights without extent come behind the triangles that emit, in the scene's order; the environment is the last of those that numbers choose among
+    /// (scene/upload/light_list.h).
     void execute(Frame& frame) override {
         const std::vector<Light>& lights = frame.scene().lights;
-        std::vector<std::string> names;
-        for (const Light& l : lights) names.push_back(l.name);
         const std::string& wanted = light;
-        if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
-            throw Error(Where{frame.scene().file.string()}, "there is no light \"" + wanted + "\" for a light_edit to change", didYouMean(wanted, names));
+        if (!wanted.empty()) namedThing(frame.scene(), lights, wanted, "light", "a light_edit to change");
         World made = frame.valueOf(world);
         const std::uint32_t first = made.lightCount - (made.environmentLight != NONE) - std::uint32_t(lights.size());
         const std::uint32_t texels = environment == 1 ? 0 : made.environmentSize.x * made.environmentSize.y;
@@ -32,7 +30,7 @@ struct LightEdit final : Pass {
             Memory lights, environment;
         };
         auto keep = std::make_shared<Keep>();
-        keep->lights = frame.allocate(std::max(made.lightCount, 1u) * sizeof(LightRecord), "lights");
+        keep->lights = frame.allocate(std::max(made.lightRecords, 1u) * sizeof(LightRecord), "lights");
         made.lights = keep->lights.address;
         if (texels > 0) {
             keep->environment = frame.allocate(texels * sizeof(EnvironmentTexel), "environment");
@@ -40,9 +38,9 @@ struct LightEdit final : Pass {
         }
         made.environmentRotation += turn * std::numbers::pi_v<float> / 180;
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), keep, std::span<const std::byte>());
-        frame.dispatch(shader, {made.lightCount, 1}, {copies, 0});
-        for (std::uint32_t i = 0; i < names.size(); ++i)
-            if (wanted.empty() || names[i] == wanted) frame.dispatch(shader, {1, 1}, {scales, first + i});
+        frame.dispatch(shader, {made.lightRecords, 1}, {copies, 0});
+        for (std::uint32_t i = 0; i < lights.size(); ++i)
+            if (wanted.empty() || lights[i].name == wanted) frame.dispatch(shader, {1, 1}, {scales, first + i});
         frame.dispatch(shader, {texels, 1}, {scalesEnvironment, 0});
     }
 

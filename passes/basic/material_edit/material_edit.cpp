@@ -3,8 +3,6 @@
 #include <framework/pass/pass.h>
 #include <framework/pass/scene.h>
 
-#include <algorithm>
-
 using namespace lodestir;
 
 struct MaterialEdit final : Pass {
@@ -21,18 +19,15 @@ struct MaterialEdit final : Pass {
 
     void execute(Frame& frame) override {
         const std::vector<Material>& materials = frame.scene().materials;
-        std::vector<std::string> names;
-        for (const Material& m : materials) names.push_back(m.name);
         const std::string& wanted = material;
-        if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
-            throw Error(Where{frame.scene().file.string()}, "there is no material \"" + wanted + "\" for a material_edit to change", didYouMean(wanted, names));
+        if (!wanted.empty()) namedThing(frame.scene(), materials, wanted, "material", "a material_edit to change");
         const Memory memory = frame.upload(std::vector<MaterialRecord>(materials.size()), "materials");
         World made = frame.valueOf(world);
         made.materials = memory.address;
         frame.provide(worldOut, std::as_bytes(std::span(&made, 1)), memory.keep, std::span<const std::byte>());
-        frame.dispatch(shader, {std::uint32_t(names.size()), 1}, {0, wanted.empty()});
-        for (std::uint32_t i = 0; i < names.size(); ++i)
-            if (names[i] == wanted) frame.dispatch(shader, {1, 1}, {i, true});
+        frame.dispatch(shader, {std::uint32_t(materials.size()), 1}, {0, wanted.empty()});
+        for (std::uint32_t i = 0; i < materials.size(); ++i)
+            if (materials[i].name == wanted) frame.dispatch(shader, {1, 1}, {i, true});
     }
 };
 LODESTIR_PASS(MaterialEdit, "material_edit.comp", "Changes a material of the scene from this frame on: colour, roughness, metal, emission.")

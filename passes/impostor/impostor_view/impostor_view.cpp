@@ -24,14 +24,7 @@ struct ImpostorView final : Pass {
 
     void execute(Frame& frame) override {
         const std::string& wanted = mesh;
-        std::uint32_t index = NONE;
-        std::vector<std::string> names;
-        for (const Mesh& m : frame.scene().meshes) {
-            if (m.name == wanted && index == NONE) index = std::uint32_t(names.size());
-            names.push_back(m.name);
-        }
-        if (!wanted.empty() && index == NONE)
-            throw Error(Where{frame.scene().file.string()}, "there is no mesh \"" + wanted + "\" for an impostor_view to show", didYouMean(wanted, names));
+        const std::uint32_t index = wanted.empty() ? NONE : namedThing(frame.scene(), frame.scene().meshes, wanted, "mesh", "an impostor_view to show");
         frame.dispatch(shader, frame.size(), {index});
     }
 };
