@@ -82,6 +82,9 @@ TEST_F(LongViewEndurance, HoldsNoMoreAfterManyFramesAndReloads) { endure(2000, 5
 TEST_F(ViewEndurance, LivesWithAWindowManager) {
     if (!isInstalled("openbox")) GTEST_SKIP() << "needs openbox; scripts/setup installs it";
     Process manager({"openbox"}, {{"DISPLAY", display->name()}});
+    const auto manages = [&] { return runProcess({"xdotool", "get_desktop"}, {{"DISPLAY", display->name()}}).exitCode == 0; };
+    for (int i = 0; i < 100 && !manages(); ++i) std::this_thread::sleep_for(100ms);  // a window that is there before it isn't given the keys
+    ASSERT_TRUE(manages());
     Viewer viewer(*display, folder, writeGraph(), {});
     viewer.await("frames", rendered);
     const auto sized = [&](int width, int height) {
