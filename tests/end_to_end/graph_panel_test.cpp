@@ -142,14 +142,14 @@ TEST_F(GraphPanel, WhatIsSavedGivesTheSameImage) {
 
     // Into the graph's own file: what runs is what it says, and nothing is by hand any more.
     viewer.key("ctrl+y");
-    viewer.await("an edit again", did("without accumulate"));
+    const OrderedJson edited = viewer.await("an edit again", did("without accumulate"));
     viewer.key("ctrl+s");
     const OrderedJson written = viewer.await("the file written", [](const OrderedJson& r) { return r["redo"] == "" && did("")(r); });
     EXPECT_NE(written["note"].get<std::string>().find("wrote into"), std::string::npos) << written["note"];
     const OrderedJson own = readJson(folder / "graph.json");
     EXPECT_FALSE(own["passes"].contains("accumulate"));
     EXPECT_EQ(own["passes"]["display"]["in"]["color"], "trace.color");
-    viewer.await("the file read again", [&](const OrderedJson& r) { return r["builds"].get<int>() > written["builds"].get<int>() && did("")(r); });
+    viewer.await("the file read again", [&](const OrderedJson& r) { return r["builds"].get<int>() > edited["builds"].get<int>() && did("")(r); });
     EXPECT_FALSE(saved(viewer, "graph.json")["passes"].contains("accumulate"));
     EXPECT_TRUE(viewer.running());
 }
