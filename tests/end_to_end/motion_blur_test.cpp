@@ -283,8 +283,10 @@ TEST_F(Flight, SplatsFindTheAnswer) {
         }
 }
 
+using LongFlight = Flight;
+
 // Each splat counts as a whole path; all paths are thought to be splats to the first part.
-TEST_F(Flight, FindsFaultsOfParts) {
+TEST_F(LongFlight, FindsFaultsOfParts) {
     const std::vector<Fault> faults{
         {"splat_whole", "temporal_splat", "shift_paths.comp", "way == FORTH ? 1 / float(splatsOfPath()) : float(splatsOfPath())", "1"},
         {"splat_first", "temporal_splat", "lod/partitions.glsl", "return min(uint(time * float(parts)), parts - 1u);", "return 0u;"}};

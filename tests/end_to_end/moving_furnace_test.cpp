@@ -170,8 +170,10 @@ TEST_F(MovingFurnace, ReuseFindsTheAnswer) {
     }
 }
 
+using LongMovingFurnace = MovingFurnace;
+
 // Keeps the chance of a light without extent in the integrand of what is reused, though it is another in each frame.
-TEST_F(MovingFurnace, FindsChancesThatAreKept) {
+TEST_F(LongMovingFurnace, FindsChancesThatAreKept) {
     const char* right = "return l.delta ? w.lights.at[l.point.light].pmf : l.pdf;";
     const char* wrong = "return l.delta ? 1.0 : l.pdf;";
     std::vector<Fault> faults;

@@ -131,10 +131,10 @@ TEST_P(UnbiasedTogether, ReuseHasTheMeanOfPathTracing) {
 
 std::string combinationName(const testing::TestParamInfo<Combination>& test) { return test.param.scene; }
 
-INSTANTIATE_TEST_SUITE_P(Combinations, UnbiasedTogether,
-                         testing::Values(Combination{"tiles, vector weights, two rounds, splatting", "ensemble_lights", "spatial.radius", 96}),
+INSTANTIATE_TEST_SUITE_P(LongCombinations, UnbiasedTogether,
+                         testing::Values(Combination{"tiles, vector weights, two rounds, splatting", "ensemble_lights", "spatial.radius", 96},
+                                         Combination{"all", "ensemble_moving", "pairing.radius", 512}),
                          combinationName);
-INSTANTIATE_TEST_SUITE_P(LongCombinations, UnbiasedTogether, testing::Values(Combination{"all", "ensemble_moving", "pairing.radius", 512}), combinationName);
 
 // Unlit surfaces light what is around them, are found by the BSDF alone, and are reconnected to: an emitter that no light sample finds.
 TEST(UnbiasedUnlit, ReuseHasTheMeanOfPathTracing) {
