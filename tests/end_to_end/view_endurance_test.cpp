@@ -78,34 +78,5 @@ TEST_F(ViewEndurance, HoldsNoMoreAfterFramesAndReloads) { endure(300, 12); }
 using LongViewEndurance = ViewEndurance;
 TEST_F(LongViewEndurance, HoldsNoMoreAfterManyFramesAndReloads) { endure(2000, 50); }
 
-// With frames around windows, sizes and closing decided by somebody else.
-TEST_F(ViewEndurance, LivesWithAWindowManager) {
-    if (!isInstalled("openbox")) GTEST_SKIP() << "needs openbox; scripts/setup installs it";
-    Process manager({"openbox"}, {{"DISPLAY", display->name()}});
-    const auto manages = [&] { return runProcess({"xdotool", "get_desktop"}, {{"DISPLAY", display->name()}}).exitCode == 0; };
-    for (int i = 0; i < 100 && !manages(); ++i) std::this_thread::sleep_for(100ms);  // a window that is there before it isn't given the keys
-    ASSERT_TRUE(manages());
-    Viewer viewer(*display, folder, writeGraph(), {});
-    viewer.await("frames", rendered);
-    const auto sized = [&](int width, int height) {
-        display->xdotool({"search", "--name", "Lodestir", "windowsize", std::to_string(width), std::to_string(height)});
-        return viewer.await("a window of another size", [&](const OrderedJson& r) {
-            return r["area"][0].get<int>() + r["area"][2].get<int>() == width && r["area"][3].get<int>() < height && r["area"][3].get<int>() > height / 2;
-        });
-    };
-    sized(900, 600);
-    const OrderedJson small = sized(640, 480);
-    viewer.await("more frames", [&](const OrderedJson& r) { return r["frames"].get<int>() > small["frames"].get<int>() + 5; });
-    const OrderedJson large = sized(1100, 700);
-    viewer.key("space");  // places of widgets are the window's, and the frame around it moves that
-    viewer.await("a pause", [](const OrderedJson& r) { return r["paused"] == true; });
-    EXPECT_TRUE(large["problems"].empty()) << large["problems"];
-    viewer.key("alt+F4");
-    const Output end = viewer.wait();
-    EXPECT_EQ(end.exitCode, 0) << end.err;
-    EXPECT_EQ(end.err, "");
-    manager.kill(SIGTERM);
-}
-
 }  // namespace
 }  // namespace lodestir::test

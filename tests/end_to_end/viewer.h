@@ -21,7 +21,7 @@ inline bool isInstalled(const std::string& program) { return runProcess({"bash",
 class VirtualDisplay {
 public:
     explicit VirtualDisplay(const Path& folder)
-        : server_({"bash", "-c", "exec Xvfb -displayfd 3 -screen 0 1280x800x24 -nolisten tcp 3>" + (folder / "display").string()}) {
+        : server_({"bash", "-c", "exec Xvfb -displayfd 3 -screen 0 1280x800x24 -noreset -nolisten tcp 3>" + (folder / "display").string()}) {
         for (int i = 0; i < 400 && number_.empty(); ++i) {
             std::this_thread::sleep_for(25ms);
             std::getline(std::ifstream(folder / "display") >> std::ws, number_);
@@ -47,7 +47,7 @@ public:
     Viewer(const VirtualDisplay& display, const Path& folder, const Path& graph, Arguments arguments, Environment environment = {})
         : display_(display),
           report_(folder / "report.json"),
-          process_(command(folder, graph, std::move(arguments)), environmentOf(display, std::move(environment))) {}
+          process_(command(folder, graph, std::move(arguments), environment), environmentOf(display, environment)) {}
 
     /// The report once `holds` is true of it; the test fails when that takes longer than a minute.
     OrderedJson await(const std::string& what, const std::function<bool(const OrderedJson&)>& holds, std::chrono::duration<double> patience = 60s) {
@@ -158,10 +158,12 @@ public:
     Output wait() { return process_.wait(90s); }
 
 private:
-    static std::vector<std::string> command(const Path& folder, const Path& graph, Arguments arguments) {
+    /// With a window of its own size, but where the test has a folder in which viewers remember theirs.
+    static std::vector<std::string> command(const Path& folder, const Path& graph, const Arguments& arguments, const Environment& environment) {
         std::vector<std::string> all{
-            LODESTIR_BINARY,          "view", graph.string(), "--window", "1280x800", "--self-report", (folder / "report.json").string(), "--out",
-            (folder / "out").string()};
+            LODESTIR_BINARY, "view", graph.string(), "--self-report", (folder / "report.json").string(), "--out", (folder / "out").string()};
+        if (std::ranges::find(environment, "XDG_STATE_HOME", &Environment::value_type::first) == environment.end())
+            all.insert(all.end(), {"--window", "1280x800"});
         all.insert(all.end(), arguments.begin(), arguments.end());
         return all;
     }

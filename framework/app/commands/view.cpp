@@ -19,7 +19,7 @@ namespace {
 struct ViewOptions {
     SessionOptions session;
     ComparedFirst compared;
-    glm::uvec2 window{1440, 900};
+    std::optional<glm::uvec2> window;  ///< points; none: as it was when it was last closed
     Path out = "out", selfReport;
     std::optional<Path> screenshot;  ///< where one is wanted at the end, too
 };
@@ -32,12 +32,17 @@ void takeCompared(const std::string& text, ComparedFirst& compared) {
     if (!isFile(compared.graph)) refuseOption("--compare", "there is no file " + compared.graph.string());
 }
 
+Rectangle inPixels(const Rectangle& points, float density) {
+    return {glm::ivec2(density * glm::vec2(points.corner)), glm::ivec2(density * glm::vec2(points.size))};
+}
+
 /// Draws the window until it is closed; the renderer has a thread of its own.
 int showWindow(const ViewOptions& options) {
     SessionOptions sessionOptions = options.session;
     const auto frames = std::uint64_t(sessionOptions.changes.frames.value_or(0));
     sessionOptions.changes.frames.reset();  // here it says when to quit
-    Window window(glm::ivec2(options.window), "Lodestir: " + sessionOptions.graph.filename().string());
+    Window window(glm::ivec2(options.window.value_or(glm::uvec2(1440, 900))), "Lodestir: " + sessionOptions.graph.filename().string(),
+                  options.window ? std::nullopt : readWindowPlace());
     const auto device =
         std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.renderer.device, .windowExtensions = window.vulkanExtensions()});
     Canvas canvas(*device, window);
@@ -71,7 +76,7 @@ int showWindow(const ViewOptions& options) {
             if (!canvas.begin()) continue;
             seen = status;
             const bool last = frames > 0 && status->framesDone >= frames;
-            const Rectangle area = panels.pictureArea(canvas.extent());
+            const Rectangle area = panels.pictureArea(canvas.points()), pixels = inPixels(area, canvas.density());
             if (const auto moved = viewport.interact(area, status->picture.extent, status->camera))
                 renderer.post([key = *moved](ViewSession& s) { s.setCamera(key); });
             panels.draw(*status);
@@ -81,10 +86,11 @@ int showWindow(const ViewOptions& options) {
             canvas.end(
                 [&](gpu::Commands& commands) {
                     if (!shows) return;
-                    const glm::mat3 toImage = viewport.toImage(status->picture);
-                    painter.prepare(commands, status->picture, comparison.subtracted(status->picture, panels.layout()), panels.layout(), panels.look(), area,
+                    const float point = 1 / canvas.density();
+                    const glm::mat3 toImage = viewport.toImage(status->picture) * glm::mat3(point, 0, 0, 0, point, 0, 0, 0, 1);
+                    painter.prepare(commands, status->picture, comparison.subtracted(status->picture, panels.layout()), panels.layout(), panels.look(), pixels,
                                     toImage, viewport.pixelUnderPointer(), canvas.blueFirst());
-                    comparison.prepare(commands, area, toImage, canvas.blueFirst());
+                    comparison.prepare(commands, pixels, toImage, canvas.blueFirst());
                 },
                 [&](gpu::Commands& commands, VkImage image) {
                     if (shows) comparison.paint(commands, image, painter);
@@ -95,10 +101,11 @@ int showWindow(const ViewOptions& options) {
                 canvas.wait();
                 report.answered(*input);
             }
-            report.write(*status, panels, viewport, area);
+            report.write(*status, panels, viewport, area, canvas.density());
             if (last) break;
         }
         canvas.wait();  // the last drawing uses what ends before the canvas does
+        if (!options.window) keepWindowPlace(window.place());
     }
     if (!failure.empty()) throw Error(failure);
     if (!device->validationMessages().empty())
@@ -113,7 +120,8 @@ void addView(CLI::App& app, std::function<int()>& run) {
     Command command(app, "view", "Renders a graph into a window: any port, all parameters, a camera to move, live reload.");
     options->session.addTo(command);
     command.find("--frames").about("quit after this many frames");
-    command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, "size of the window, WIDTHxHEIGHT");
+    command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, 
+                               "size of the window in points, WIDTHxHEIGHT (else it is where, and as large as, it was when it was last closed)");
     command.option("--out", options->out, "folder for what is saved").showDefault();
     command.taken<std::string>("--compare", [options](const std::string& v) { takeCompared(v, options->compared); },
                                "graph that runs beside it as A: GRAPH or GRAPH:VARIANT");

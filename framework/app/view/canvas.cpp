@@ -33,12 +33,13 @@ void changeLayout(VkCommandBuffer commands, VkImage image, VkImageLayout from, V
 
 }  // namespace
 
-Canvas::Canvas(const gpu::Device& device, const Window& window) : device_(device), swapchain_(device, window), commands_(device, 0) {
+Canvas::Canvas(const gpu::Device& device, const Window& window)
+    : device_(device), density_(window.density()), swapchain_(device, window), commands_(device, 0) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the layout is fixed
     ImGui::GetIO().LogFilename = nullptr;
-    setTheme();
+    setTheme(density_);
     ImGui_ImplGlfw_InitForVulkan(window.handle(), true);
 
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
@@ -79,6 +80,12 @@ bool Canvas::begin() {
     if (!image_) return false;
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    // It speaks of the desktop's units, which are pixels in one place (X11) and points in another (Wayland).
+    ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 toPoints = glm::vec2(io.DisplayFramebufferScale.x, io.DisplayFramebufferScale.y) / density_;
+    io.MousePos = {toPoints.x * io.MousePos.x, toPoints.y * io.MousePos.y};
+    io.DisplaySize = {float(points().x), float(points().y)};
+    io.DisplayFramebufferScale = {density_, density_};
     ImGui::NewFrame();
     return true;
 }

@@ -28,11 +28,15 @@ public:
     void wait() { commands_.wait(); }  ///< until what end() recorded is drawn
     bool blueFirst() const { return swapchain_.blueFirst(); }
     glm::uvec2 extent() const { return swapchain_.extent(); }
+    /// What panels are laid out in and the pointer is told in: points, each of density() pixels.
+    glm::uvec2 points() const { return glm::vec2(extent()) / density_; }
+    float density() const { return density_; }
 
 private:
     void writeScreenshot(const gpu::Buffer& memory, const Path& file) const;
 
     const gpu::Device& device_;
+    const float density_;
     Swapchain swapchain_;
     gpu::Commands commands_;
     VkDescriptorPool descriptors_ = VK_NULL_HANDLE;

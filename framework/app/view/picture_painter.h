@@ -17,7 +17,7 @@ struct Look {
     float low = 0, high = 1;
 };
 
-/// A rectangle of the window, pixels.
+/// A rectangle of the window: in points for panels and pointer, in pixels for what draws.
 struct Rectangle {
     glm::ivec2 corner{0}, size{0};
     bool operator==(const Rectangle&) const = default;

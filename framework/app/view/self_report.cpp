@@ -13,13 +13,16 @@ void SelfReport::answered(std::chrono::steady_clock::time_point since) {
     latencies_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count());
 }
 
-void SelfReport::write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area) {
+void SelfReport::write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area, float density) {
     using OrderedJson = nlohmann::ordered_json;
     ++drawn_;
     if (!wanted()) return;
     std::vector<double> sorted = latencies_;
     std::ranges::sort(sorted);
     const auto at = [&](double share) { return sorted.empty() ? 0.0 : sorted[std::size_t(share * double(sorted.size() - 1))]; };
+    auto widgets = panels.widgets();
+    for (auto& [name, corners] : widgets)
+        for (float& corner : corners) corner *= density;
     OrderedJson json = {{"drawn", drawn_},
                         {"frames", status.framesDone},
                         {"framesStill", status.framesStill},
@@ -41,10 +44,11 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"shown", status.picture.port},
                         {"pixel", {viewport.pixelUnderPointer().x, viewport.pixelUnderPointer().y}},
                         {"zoom", viewport.zoom()},
-                        {"area", {area.corner.x, area.corner.y, area.size.x, area.size.y}},
+                        {"density", density},
+                        {"area", {density * float(area.corner.x), density * float(area.corner.y), density * float(area.size.x), density * float(area.size.y)}},
                         {"comparison",
                          {{"keeps", panels.comparison().has()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
-                        {"widgets", panels.widgets()}};
+                        {"widgets", std::move(widgets)}};
     if (status.told)
         json["told"] = {{"pixel", {status.told->pixel.x, status.told->pixel.y}}, {"frame", status.told->frame}, {"first", status.told->first},
                         {"paths", status.told->paths.size()}, {"passes", *status.told->passes}};

@@ -9,16 +9,18 @@
 namespace lodestir {
 namespace {
 
-constexpr float smallestSize = 8;  // of text that can be read
+constexpr float smallestSize = 8;  // of text that can be read, points
 
 /// The first of the fonts that this machine has; Dear ImGui's own where it has none.
-void addFont(std::initializer_list<const char*> files, float size) {
+void addFont(std::initializer_list<const char*> files, float pixels) {
     static const ImWchar glyphs[] = {0x20, 0xff, 0x2013, 0x2026, 0x2190, 0x21bb, 0x25a0, 0x25cf, 0};  // Latin, dashes, arrows, shapes
     ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
     std::error_code none;
     for (const char* file : files)
-        if (std::filesystem::is_regular_file(file, none) && fonts.AddFontFromFileTTF(file, size, nullptr, glyphs)) return;
-    fonts.AddFontDefault();
+        if (std::filesystem::is_regular_file(file, none) && fonts.AddFontFromFileTTF(file, pixels, nullptr, glyphs)) return;
+    ImFontConfig own;
+    own.SizePixels = pixels;
+    fonts.AddFontDefault(&own);
 }
 
 }  // namespace
@@ -34,20 +36,21 @@ ImFont* plainFont(float size) {
 }
 ImFont* figureFont() { return ImGui::GetIO().Fonts->Fonts[1]; }
 
-void setTheme() {
-    const auto addPlain = [](float size) {
+void setTheme(float density) {
+    const auto addPlain = [density](float size) {
         addFont({"/usr/share/fonts/opentype/inter/Inter-Regular.otf", "/usr/share/fonts/truetype/inter/Inter-Regular.ttf",
                  "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf", "/usr/share/fonts/noto/NotoSans-Regular.ttf",
                  "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
                  "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"},
-                size);
+                density * size);
     };
     addPlain(textSize);
     addFont({"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf", "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
              "/usr/share/fonts/truetype/noto/NotoSansMono-Regular.ttf", "/usr/share/fonts/noto/NotoSansMono-Regular.ttf",
              "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf"},
-            textSize - 1);
+            density * (textSize - 1));
     for (float size = textSize - 1; size >= smallestSize; --size) addPlain(size);
+    ImGui::GetIO().FontGlobalScale = 1 / density;
 
     ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();

@@ -13,15 +13,15 @@ struct Palette {
         bad{0.93f, 0.42f, 0.38f, 1};
     ImVec4 badBack{0.28f, 0.09f, 0.09f, 0.97f};
 };
-inline constexpr float textSize = 15;  ///< pixels
+inline constexpr float textSize = 15;  ///< points
 
 Palette palette();
 std::array<float, 3> backgroundColor();  ///< behind the picture, as the screen gets it
 /// Sets style and fonts of the current Dear ImGui context. Font 0 is for text, font 1 has figures of equal width; then come smaller ones
-/// for text.
-void setTheme();
+/// for text. `density`: pixels a point, so that type is sharp where the panels are drawn larger than they are laid out.
+void setTheme(float density);
 ImFont* plainFont();
-ImFont* plainFont(float size);  ///< drawn for about that many pixels, so that it stays sharp
+ImFont* plainFont(float size);  ///< drawn for about that many points, so that it stays sharp
 ImFont* figureFont();
 
 }  // namespace lodestir

@@ -19,7 +19,8 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
     const glm::vec2 size(place.size), image(extent_);
     if (zoom_ <= 0) {
         scale_ = std::min(size.x / image.x, size.y / image.y);
-        if (scale_ > 1) scale_ = std::floor(scale_);  // whole pixels stay square and alike
+        // Whole pixels stay square and alike.
+        if (const float density = io.DisplayFramebufferScale.x; density * scale_ > 1) scale_ = std::floor(density * scale_) / density;
         centre_ = 0.5f * image;
     } else {
         scale_ = zoom_;

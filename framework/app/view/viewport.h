@@ -17,11 +17,11 @@ public:
     const std::optional<CameraKey>& camera() const { return moved_; }
 
     void fit() { zoom_ = 0; }
-    void zoomTo(float zoom);  ///< pixels of the window a pixel of the image, about the middle
+    void zoomTo(float zoom);  ///< points of the window a pixel of the image, about the middle
     float zoom() const { return scale_; }
-    /// From pixels of the rectangle to pixels of the image: a picture of an older camera is warped to where the camera is by now.
+    /// From points of the rectangle to pixels of the image: a picture of an older camera is warped to where the camera is by now.
     glm::mat3 toImage(const Picture& picture) const;
-    /// In pixels of the window, of a place in the picture that the camera sees by now: 0..1 to the right and downwards.
+    /// In points of the window, of a place in the picture that the camera sees by now: 0..1 to the right and downwards.
     glm::vec2 inWindow(glm::vec2 place) const {
         return glm::vec2(place_.corner) + 0.5f * glm::vec2(place_.size) + scale_ * (place * glm::vec2(extent_) - centre_);
     }
@@ -39,8 +39,8 @@ private:
     glm::ivec2 pixel_{-1};
     int button_ = -1;             ///< that was pressed inside and is held
     bool movesPicture_ = false;
-    float dragged_ = 0;           ///< pixels, while a button is held
-    std::optional<glm::vec2> clicked_;  ///< pixel of the rectangle
+    float dragged_ = 0;           ///< points, while a button is held
+    std::optional<glm::vec2> clicked_;  ///< point of the rectangle
     std::optional<CameraKey> moved_;
 };
 

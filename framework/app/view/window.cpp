@@ -6,6 +6,8 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
+
 namespace lodestir {
 namespace {
 
@@ -15,13 +17,29 @@ std::string lastProblem() {
     return text ? text : "no reason given";
 }
 
+/// Whether the middle of its upper edge, by which it is moved, can be reached.
+bool isOnAScreen(const WindowPlace& place) {
+    const glm::ivec2 handle = place.corner + glm::ivec2(place.size.x / 2, 8);
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        glm::ivec2 corner, size;
+        glfwGetMonitorWorkarea(monitors[i], &corner.x, &corner.y, &size.x, &size.y);
+        if (glm::all(glm::greaterThanEqual(handle, corner)) && glm::all(glm::lessThan(handle, corner + size))) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
-Window::Window(glm::ivec2 size, const std::string& title) {
+Window::Window(glm::ivec2 size, const std::string& title, const std::optional<WindowPlace>& place) {
     if (!glfwInit())
         throw Error("there is no display to open a window on (" + lastProblem() + ")",
                     "`lodestir run` renders without one; `xvfb-run lodestir view ...` gives it one in memory");
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it is in its place
+    glfwWindowHint(GLFW_MAXIMIZED, place && place->maximised);
     window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (!window_) {
         const std::string problem = lastProblem();
@@ -47,11 +65,32 @@ Window::Window(glm::ivec2 size, const std::string& title) {
     });
     glfwSetFramebufferSizeCallback(window_, note);
     glfwSetWindowRefreshCallback(window_, note);
+    constexpr auto moved = [](GLFWwindow* w, int, int) { static_cast<Window*>(glfwGetWindowUserPointer(w))->notePlace(); };
+    glfwSetWindowPosCallback(window_, moved);
+    glfwSetWindowSizeCallback(window_, moved);
+    if (place) {
+        place_ = *place;
+        glfwSetWindowSize(window_, place->size.x, place->size.y);
+        if (isOnAScreen(*place)) glfwSetWindowPos(window_, place->corner.x, place->corner.y);
+    }
+    glfwShowWindow(window_);
 }
 
 Window::~Window() {
     glfwDestroyWindow(window_);
     glfwTerminate();
+}
+
+void Window::notePlace() {
+    if (glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) || glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) return;
+    glfwGetWindowPos(window_, &place_.corner.x, &place_.corner.y);
+    glfwGetWindowSize(window_, &place_.size.x, &place_.size.y);
+}
+
+WindowPlace Window::place() const {
+    WindowPlace place = place_;
+    place.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) != 0;
+    return place;
 }
 
 std::vector<std::string> Window::vulkanExtensions() const {
@@ -67,6 +106,12 @@ glm::ivec2 Window::size() const {
     glm::ivec2 size;
     glfwGetFramebufferSize(window_, &size.x, &size.y);
     return size;
+}
+
+float Window::density() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return std::clamp(x, 0.5f, 8.0f);  // whatever a desktop may say
 }
 
 void Window::setClipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
