@@ -359,6 +359,8 @@ std::string nameFor(const Graph& graph, const std::string& type) {
 }
 
 Json worldPatch(const Graph& graph, const std::string& name, const WorldPass& pass) {
+    const auto scene = std::ranges::find(graph.nodes, sceneType, &GraphNode::type);
+    if (scene == graph.nodes.end()) throw Error("no pass of this graph takes the scene's World, so that nobody would see this edit");
     Json patch;
     // What the graph binds by itself is said from here on: the new pass comes last in the file, and unwired inputs would take its World, whosever they took.
     for (std::size_t n = 0; n < graph.nodes.size(); ++n)
@@ -372,7 +374,7 @@ Json worldPatch(const Graph& graph, const std::string& name, const WorldPass& pa
         }
     Json& made = patch["passes"][name];
     made["type"] = pass.type;
-    made["in"]["world"] = std::ranges::find(graph.nodes, sceneType, &GraphNode::type)->name;
+    made["in"]["world"] = scene->name;
     if (pass.ownPrevious) made["in"]["worldPrev"] = textOf(name, "world", true);
     made["set"] = pass.set;
     return patch;

@@ -62,8 +62,10 @@ int lastFrameOf(const Scene& scene) {
 
 /// The frame whose pose and camera a frame shows.
 float ViewSession::poseFrame(std::uint32_t frame) const {
-    const GraphNode& node = *std::ranges::find(session_->graph().nodes, "scene", &GraphNode::type);
-    return std::get<bool>(parameterOf(node, "animate")->value) ? float(frame) : float(std::get<int>(parameterOf(node, "pose")->value));
+    const auto& nodes = session_->graph().nodes;
+    const auto node = std::ranges::find(nodes, "scene", &GraphNode::type);
+    if (node == nodes.end()) return float(frame);  // no pass takes a World
+    return std::get<bool>(parameterOf(*node, "animate")->value) ? float(frame) : float(std::get<int>(parameterOf(*node, "pose")->value));
 }
 
 /// The port of the first pass of a type that runs.
