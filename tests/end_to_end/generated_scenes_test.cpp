@@ -215,6 +215,22 @@ TEST(GeneratedScenes, WhatBendsSwitches) {
     EXPECT_GT(std::abs(scene.morphWeights(40)[index][0] - scene.morphWeights(39)[index][0]), 0.05f);
 }
 
+// The cobra's levels follow the same joints, and these turn where it switches.
+TEST(GeneratedScenes, WhatJointsBendSwitches) {
+    const Scene scene = loaded("ensemble_skinned");
+    const auto cobra = std::ranges::find(scene.meshes, "cobra", &Mesh::name);
+    ASSERT_NE(cobra, scene.meshes.end());
+    ASSERT_NE(cobra->skin, none);
+    EXPECT_EQ(scene.skins[cobra->skin].nodes.size(), 4u);
+    ASSERT_EQ(cobra->levels.size(), 3u);
+    for (const MeshLevel& level : cobra->levels) {
+        EXPECT_EQ(level.joints.size(), level.positions.size());
+        for (std::uint32_t joint = 0; joint < 4; ++joint)
+            EXPECT_TRUE(std::ranges::any_of(level.joints, [&](const VertexJoints& v) { return v.joints[0] == joint || v.joints[1] == joint; })) << joint;
+    }
+    EXPECT_NE(levelsAt(scene, 39), levelsAt(scene, 40));
+}
+
 // Convergence under motion is judged without gloss, which would move of its own.
 TEST(GeneratedScenes, TheWatercolourIsMattAndItsCameraRises) {
     const Scene scene = loaded("watercolour");

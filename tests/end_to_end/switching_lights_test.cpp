@@ -48,7 +48,8 @@ TEST_P(SwitchingLights, HaveTheMeanOfPathTracing) {
 
 // Lights at their switch are judged below, beside a fault.
 INSTANTIATE_TEST_SUITE_P(Long, SwitchingLights,
-                         testing::Values(Case{"ensemble_emitter", 41, 112}, Case{"ensemble_bending", 40, 64}, Case{"ensemble_bending", 41, 64}),
+                         testing::Values(Case{"ensemble_emitter", 41, 112}, Case{"ensemble_bending", 40, 64}, Case{"ensemble_bending", 41, 64},
+                                         Case{"ensemble_skinned", 40, 64}, Case{"ensemble_skinned", 41, 64}),
                          [](const auto& test) { return std::string(test.param.scene) + "_" + std::to_string(test.param.frame); });
 
 class SwitchingFaults : public Sheets {

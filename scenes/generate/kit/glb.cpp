@@ -54,7 +54,8 @@ struct Glb::Tables {
     json meshes = json::array(), nodes = json::array(), lights = json::array();
     json channels = json::array(), samplers = json::array();  ///< of the one animation
     std::vector<json> geometries;                             ///< primitives without their material
-    std::set<int> levels;                                     ///< nodes that no scene shows of itself
+    json skins = json::array();
+    std::set<int> owned;                                      ///< nodes that are no roots: levels, and what hangs on others
 
     int addPlacedNode(json node, const Placement& placement) {
         if (placement.translation != glm::vec3(0)) node["translation"] = array(placement.translation);
@@ -85,7 +86,7 @@ int Glb::addView(const void* data, size_t bytes, int target) {
 }
 
 int Glb::addAccessor(const void* data, size_t count, int components, int componentType, int target) {
-    const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+    const char* types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4", "", "", "", "", "", "", "", "", "", "", "", "MAT4"};
     const size_t size = componentType == unsignedShort ? 2 : 4;
     const int view = addView(data, count * size * size_t(components), target);
     tables->accessors.push_back({{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", types[components]}});
@@ -196,6 +197,17 @@ int Glb::addGeometry(const Mesh& mesh, const std::vector<glm::vec3>& morphed) {
     return int(tables->geometries.size()) - 1;
 }
 
+void Glb::hold(int geometry, const std::vector<Hold>& holds) {
+    json& attributes = tables->geometries.at(size_t(geometry))["attributes"];
+    if (holds.size() != tables->accessors.at(attributes["POSITION"].get<size_t>())["count"]) throw std::logic_error("a skin needs a hold for each vertex");
+    std::vector<uint16_t> joints;
+    std::vector<float> shares;
+    for (const Hold& h : holds)
+        for (int k = 0; k < 4; ++k) joints.push_back(uint16_t(h.joints[k])), shares.push_back(h.shares[k]);
+    attributes["JOINTS_0"] = addAccessor(joints.data(), holds.size(), 4, unsignedShort, arrayBuffer);
+    attributes["WEIGHTS_0"] = addAccessor(shares.data(), holds.size(), 4, floating, arrayBuffer);
+}
+
 int Glb::addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial) {
     json primitives = json::array();
     for (const auto& [geometry, material] : geometryAndMaterial) {
@@ -247,12 +259,37 @@ void Glb::addLevels(int node, const std::vector<Level>& levels) {
         coarser["name"] = name, coarser["mesh"] = level.mesh;
         ids.push_back(tables->nodes.size());
         errors.push_back(tidy(level.error));
-        tables->levels.insert(int(tables->nodes.size()));
+        tables->owned.insert(int(tables->nodes.size()));
         tables->nodes.push_back(coarser);
     }
     tables->nodes[size_t(node)]["extensions"]["MSFT_lod"]["ids"] = ids;
     tables->nodes[size_t(node)]["extras"]["lod_error"] = errors;
     use("MSFT_lod");
+}
+
+std::vector<int> Glb::addSkin(int node, const std::vector<Joint>& joints) {
+    // A skinned mesh stands where its joints stand, whatever its own node says (3.7.3.3), so the skeleton takes the node's place.
+    json skeleton = tables->nodes.at(size_t(node));
+    skeleton.erase("mesh");
+    skeleton["name"] = skeleton["name"].get<std::string>() + " skeleton";
+    const int root = int(tables->nodes.size());
+    tables->nodes.push_back(skeleton);
+    std::vector<int> made;
+    std::vector<glm::mat4> toJoints;
+    for (const Joint& joint : joints) {
+        const bool hangs = joint.parent >= 0;
+        const glm::vec3 from = hangs ? joints.at(size_t(joint.parent)).position : glm::vec3(0);
+        made.push_back(tables->addPlacedNode({{"name", joint.name}}, {.translation = joint.position - from}));
+        tables->nodes[size_t(hangs ? made.at(size_t(joint.parent)) : root)]["children"].push_back(made.back());
+        tables->owned.insert(made.back());
+        glm::mat4 toJoint(1);
+        toJoint[3] = glm::vec4(-joint.position, 1);
+        toJoints.push_back(toJoint);
+    }
+    const int matrices = addAccessor(toJoints.data(), toJoints.size(), 16, floating, 0);
+    tables->skins.push_back({{"joints", made}, {"inverseBindMatrices", matrices}});
+    tables->nodes[size_t(node)]["skin"] = int(tables->skins.size()) - 1;
+    return made;
 }
 
 void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values) {
@@ -274,7 +311,7 @@ void Glb::animate(int node, Motion motion, const std::vector<float>& seconds, co
 void Glb::write(const std::filesystem::path& path) const {
     json roots = json::array();
     for (size_t i = 0; i < tables->nodes.size(); ++i)
-        if (!tables->levels.contains(int(i))) roots.push_back(i);
+        if (!tables->owned.contains(int(i))) roots.push_back(i);
 
     json root;
     root["asset"] = {{"version", "2.0"}, {"generator", "lodestir generate_scenes"}};
@@ -292,6 +329,7 @@ void Glb::write(const std::filesystem::path& path) const {
         root["samplers"] = json::array({{{"magFilter", linear}, {"minFilter", linearMipmapLinear}, {"wrapS", repeat}, {"wrapT", repeat}}});
     }
     if (!tables->channels.empty()) root["animations"] = json::array({{{"channels", tables->channels}, {"samplers", tables->samplers}}});
+    if (!tables->skins.empty()) root["skins"] = tables->skins;
     if (!tables->lights.empty()) root["extensions"]["KHR_lights_punctual"]["lights"] = tables->lights;
     if (!extensions.empty()) root["extensionsUsed"] = extensions;
 

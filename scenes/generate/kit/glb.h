@@ -78,6 +78,19 @@ struct Level {
     float error;  ///< largest distance to the finest level, in units of the mesh
 };
 
+/// A joint of a skin: where it is in the mesh at rest, and the number of the joint that it hangs on, which comes before it; -1: none.
+struct Joint {
+    std::string name;
+    glm::vec3 position{0};
+    int parent = -1;
+};
+
+/// What a vertex follows: joints by their numbers, and shares whose sum is one.
+struct Hold {
+    glm::ivec4 joints{0};
+    glm::vec4 shares{1, 0, 0, 0};
+};
+
 /// A rotation that sends -z along `direction`, for lights.
 glm::quat turnTo(const glm::vec3& direction);
 
@@ -108,6 +121,9 @@ public:
     /// Vertex data that several meshes may share. Tangents are written where Mesh::hasTangents says so. `morphed`: positions at weight 1 of a morph
     /// target, which starts at weight 0; empty: none.
     int addGeometry(const Mesh& mesh, const std::vector<glm::vec3>& morphed = {});
+
+    /// Lets each vertex of a geometry follow joints; before meshes are made of it.
+    void hold(int geometry, const std::vector<Hold>& holds);
     int addMesh(const std::string& name, const std::vector<std::pair<int, int>>& geometryAndMaterial);
     /// All of one material.
     int addMesh(const std::string& name, const Mesh& mesh, int material);
@@ -122,6 +138,9 @@ public:
 
     /// Gives a node coarser levels (MSFT_lod), finer to coarser.
     void addLevels(int node, const std::vector<Level>& levels);
+
+    /// Gives a node whose mesh is held a skeleton that stands where the node stands. Returns the nodes of its joints.
+    std::vector<int> addSkin(int node, const std::vector<Joint>& joints);
 
     /// Linear keys at the given seconds; a rotation's are quaternions (x, y, z, w), a weight's is x.
     void animate(int node, Motion motion, const std::vector<float>& seconds, const std::vector<glm::vec4>& values);
