@@ -37,20 +37,6 @@ protected:
                               {"show", "trace.color"}});
         return folder / "frames.json";
     }
-    /// What "Save image" writes: its frame.
-    static int saveImage(Viewer& viewer) {
-        viewer.click("save");
-        const std::string note =
-            viewer.await("an image", [](const OrderedJson& r) { return r["note"].get<std::string>().find(".exr") != std::string::npos; })["note"];
-        const std::size_t end = note.find(".exr"), dot = note.rfind('.', end - 1);
-        return std::stoi(note.substr(dot + 1, end - dot - 1));
-    }
-    void expectFrame(const std::string& port, int frame, const Path& graph, Arguments arguments) {
-        arguments.insert(arguments.end(), {"--frames", std::to_string(frame + 1), "--show", port});
-        run("run", graph, arguments);
-        const std::string name = port + "." + std::to_string(frame) + ".exr";
-        EXPECT_TRUE(readExrFile(folder / "out" / name).image.values == readExrFile(folder / "run" / name).image.values) << "not the picture of a run";
-    }
 };
 
 // A level forced by hand is a switch like one of a scene file: reuse sees it, and goes on over it, in the same way.

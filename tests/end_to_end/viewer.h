@@ -197,6 +197,21 @@ protected:
                              {"variants", {{"dim", {{"passes", {{"display", {{"set", {{"exposure", -3}}}}}}}}}}}});
         return folder / "graph.json";
     }
+    /// What "Save image" writes: its frame.
+    static int saveImage(Viewer& viewer) {
+        viewer.click("save");
+        const std::string note =
+            viewer.await("an image", [](const OrderedJson& r) { return r["note"].get<std::string>().find(".exr") != std::string::npos; })["note"];
+        const std::size_t end = note.find(".exr"), dot = note.rfind('.', end - 1);
+        return std::stoi(note.substr(dot + 1, end - dot - 1));
+    }
+    /// The saved image of a frame is that which a run of a graph makes.
+    void expectFrame(const std::string& port, int frame, const Path& graph, Arguments arguments) {
+        arguments.insert(arguments.end(), {"--frames", std::to_string(frame + 1), "--show", port});
+        run("run", graph, arguments);
+        const std::string name = port + "." + std::to_string(frame) + ".exr";
+        EXPECT_TRUE(readExrFile(folder / "out" / name).image.values == readExrFile(folder / "run" / name).image.values) << "not the picture of a run";
+    }
     static bool rendered(const OrderedJson& r) { return r["frames"].get<int>() >= 3 && r.contains("mean"); }
 
     std::optional<VirtualDisplay> display;

@@ -11,7 +11,12 @@ namespace lodestir {
 
 void LiveSide::follow(Session& other) {
     // One scene for both, and not two that are alike: whoever moves its camera moves that of both.
-    if (runner_ && scene_ == other.sharedScene() && runner_->size() == other.runner().size()) return;
+    if (runner_ && scene_ == other.sharedScene()) {
+        if (runner_->size() == other.runner().size()) return;
+        runner_->resize(other.runner().size());
+        port_ = describePort(*graph_, *runner_, port_.source);
+        return;
+    }
     runner_.reset();
     scene_ = other.sharedScene();
     const GraphOptions changes{.scene = scene_->file, .frames = {}, .size = other.runner().size(), .seed = {}, .set = {}, .variant = {}, .show = {}};

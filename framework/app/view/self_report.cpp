@@ -41,6 +41,7 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"shown", status.picture.port},
                         {"pixel", {viewport.pixelUnderPointer().x, viewport.pixelUnderPointer().y}},
                         {"zoom", viewport.zoom()},
+                        {"size", {status.picture.extent.x, status.picture.extent.y}},
                         {"area", {area.corner.x, area.corner.y, area.size.x, area.size.y}},
                         {"comparison",
                          {{"keeps", panels.comparison().has()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},

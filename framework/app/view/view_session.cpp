@@ -157,10 +157,13 @@ bool ViewSession::wantsFrame() const { return session_ && !broken_ && (!status_.
 void ViewSession::frame() {
     stepping_ = false;
     try {
+        const auto begin = Clock::now();
         askA([&](LiveSide& a) { a.frame(*session_, session_->runner().nextFrame(), captures_); });
         const auto start = Clock::now();
         const FrameReport report = session_->runner().run();
+        const double ofBoth = millisecondsSince(begin);
         took(report, millisecondsSince(start));
+        if (const auto size = frameSize_ ? frameSize_->took(ofBoth) : std::nullopt) resize(*size);
     } catch (const Error& error) {
         broken_ = true;  // the frame is half done: only a new session goes on
         attempt([&] { throw error; });
@@ -450,8 +453,34 @@ bool ViewSession::become(const HandMade& wanted) {
 }
 
 void ViewSession::resize(glm::uvec2 size) {
+    const auto before = options_.changes.size;
     options_.changes.size = size;
-    build();
+    if (!session_ || broken_) {
+        build();
+        return;
+    }
+    asking_.reset();
+    if (!attempt([&] { session_->runner().resize(size); })) {  // memory is out, and what there was is gone
+        options_.changes.size = before;
+        frameSize_.reset();
+        const std::vector<std::string> problems = status_.problems;
+        build();
+        status_.problems.insert(status_.problems.begin(), problems.begin(), problems.end());
+        tell();
+        return;
+    }
+    session_->graph().description.size = size;
+    reports_.clear();
+    status_.wallMilliseconds = 0;
+    describe();
+    changedByHand(true);
+    tell();
+}
+
+void ViewSession::followTime(double milliseconds, glm::uvec2 window) {
+    frameSize_.reset();
+    if (!session_ || milliseconds <= 0 || window.x == 0 || window.y == 0) return;
+    frameSize_.emplace(milliseconds, window, session_->runner().size());
 }
 
 const PassType& ViewSession::typeNamed(const std::string& type) const {

@@ -19,7 +19,7 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
     const glm::vec2 size(place.size), image(extent_);
     if (zoom_ <= 0) {
         scale_ = std::min(size.x / image.x, size.y / image.y);
-        if (scale_ > 1) scale_ = std::floor(scale_);  // whole pixels stay square and alike
+        if (scale_ > 1 && !fills_) scale_ = std::floor(scale_);  // whole pixels stay square and alike
         centre_ = 0.5f * image;
     } else {
         scale_ = zoom_;
