@@ -199,9 +199,11 @@ protected:
     }
     /// What "Save image" writes: its frame.
     static int saveImage(Viewer& viewer) {
+        const OrderedJson before = viewer.report()["note"];
         viewer.click("save");
-        const std::string note =
-            viewer.await("an image", [](const OrderedJson& r) { return r["note"].get<std::string>().find(".exr") != std::string::npos; })["note"];
+        const std::string note = viewer.await("an image", [&](const OrderedJson& r) {
+            return r["note"] != before && r["note"].get<std::string>().find(".exr") != std::string::npos;
+        })["note"];
         const std::size_t end = note.find(".exr"), dot = note.rfind('.', end - 1);
         return std::stoi(note.substr(dot + 1, end - dot - 1));
     }

@@ -101,7 +101,9 @@ void Panels::moveCamera(const std::optional<CameraKey>& camera) {
 /// Takes over what a new session has.
 void Panels::follow(const ViewStatus& status) {
     if (status.graph == graph_ || !status.graph) return;
+    if (graph_ && graph_->scene != status.graph->scene) viewport_.setCamera({});  // that was a place in another scene
     graph_ = status.graph;
+    window_.setTitle("Lodestir: " + graph_->file.filename().string());
     values_.clear();
     for (const PassInfo& pass : graph_->passes)
         for (const Parameter& parameter : pass.parameters) values_[pass.name + "." + std::string(parameter.name)] = parameter.value;
@@ -172,7 +174,7 @@ void Panels::draw(const ViewStatus& status) {
 }
 
 void Panels::keys(const ViewStatus& status) {
-    for (const Path& file : window_.takeDrops()) send([file](ViewSession& s) { s.compareWithImage(file); });
+    for (const Path& file : window_.takeDrops()) send([file](ViewSession& s) { s.open(file); });
     const std::vector<Window::Key> down = window_.takeKeys();
     if (ImGui::GetIO().WantTextInput) return;
     const auto pressed = [&](int key, bool control = false, bool shift = false) {

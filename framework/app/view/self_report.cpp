@@ -33,6 +33,8 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"refused", status.refused},
                         {"undo", status.undo},
                         {"redo", status.redo},
+                        {"graph", status.graph ? status.graph->file.filename().string() : ""},
+                        {"of", status.graph ? status.graph->scene : ""},
                         {"types", status.graph ? status.graph->edits.types.size() : 0},
                         {"ms", status.deviceMilliseconds},
                         {"frameMs", status.wallMilliseconds},

@@ -483,6 +483,38 @@ void ViewSession::followTime(double milliseconds, glm::uvec2 window) {
     frameSize_.emplace(milliseconds, window, session_->runner().size());
 }
 
+void ViewSession::open(const Path& file) {
+    const std::string ending = file.extension().string(), name = file.filename().string();
+    if (ending != ".json" && ending != ".glb" && ending != ".gltf") return compareWithImage(file);
+    const GraphOptions changes = options_.changes;
+    const Path graph = options_.graph;
+    const std::map<std::string, Value> set = set_, given = given_;
+    const std::string shown = shown_;
+    const bool done = attempt([&] {
+        if (ending == ".json" && Json::load(file).find("passes")) {
+            options_.graph = file;
+            options_.changes = {.scene = changes.scene, .frames = {}, .size = changes.size, .seed = changes.seed, .set = {}, .variant = {}, .show = {}};
+            set_.clear();
+            given_.clear();
+            shown_.clear();
+        } else {
+            options_.changes.scene = file;
+        }
+    }) && build();
+    if (done) {
+        if (options_.graph != graph) history_ = {};
+    } else {
+        options_.graph = graph;
+        options_.changes = changes;
+        set_ = set;
+        given_ = given;
+        shown_ = shown;
+        status_.refused = name;
+        watchFiles();
+    }
+    tell();
+}
+
 const PassType& ViewSession::typeNamed(const std::string& type) const {
     const auto found = std::ranges::find(types_, type, &PassType::type);
     if (found == types_.end()) throw Error("no pass type \"" + type + "\"");

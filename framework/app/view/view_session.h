@@ -47,6 +47,9 @@ public:
     /// Whether the size follows the time: a frame is to take so many milliseconds (0: any), and is at most as large as the `window`.
     void followTime(double milliseconds, glm::uvec2 window);
 
+    /// A graph runs in B's place, in the scene that was asked for; a scene or model is what the graph is rendered of; an image is a reference of A.
+    void open(const Path& file);
+
     /// Edits of the graph. One that can't be built changes nothing; the status tells why.
     void turnPass(const std::string& pass, bool off);
     void removePass(const std::string& pass);

@@ -69,6 +69,8 @@ glm::ivec2 Window::size() const {
     return size;
 }
 
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
 void Window::setClipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
 
 std::optional<Window::Clock::time_point> Window::takeInput(double seconds) {

@@ -28,6 +28,7 @@ public:
     std::vector<std::string> vulkanExtensions() const;  ///< of the instance, for gpu::DeviceOptions
     bool shouldClose() const;
     glm::ivec2 size() const;  ///< of what is drawn, pixels; {0, 0} while it is minimised
+    void setTitle(const std::string& title);
     void setClipboard(const std::string& text);
 
     /// Takes what came in, waiting up to `seconds` for something. Where that is input of the user: a time that it didn't come before.
