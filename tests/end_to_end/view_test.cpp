@@ -256,19 +256,8 @@ TEST_F(View, TheSizeFollowsTheTime) {
     const Path graph = writeGraph();
     Viewer viewer(*display, folder, graph, {"--size", "240x135", "--show", "trace.color"});
     const OrderedJson start = viewer.await("frames", [](const OrderedJson& r) { return rendered(r) && r["frames"].get<int>() >= 6; });
-    const auto ask = [&](const std::string& milliseconds) {
-        display->xdotool({"keydown", "ctrl"});
-        viewer.click("frame time");
-        display->xdotool({"keyup", "ctrl"});
-        viewer.seen([&] { display->xdotool({"type", "--delay", "60", milliseconds}); });
-        viewer.seen([&] { viewer.key("Return"); });
-        const auto [x, y] = viewer.picture();
-        viewer.seen([&] { viewer.point(x, y); });
-        viewer.press();  // whatever a busy machine made of Return: beside the field it is over
-        viewer.release();
-    };
     // Times that no machine comes near to, so that it doesn't matter what else this one does; tests/cpu/frame_size_test.cpp has those between.
-    ask("0.01");
+    viewer.type("frame time", "0.01");
     const OrderedJson small =
         viewer.await("the least frames", [](const OrderedJson& r) { return r["size"][0].get<int>() < 100 && r["framesStill"].get<int>() >= 12; });
     EXPECT_LT(small["frameMs"].get<double>(), start["frameMs"].get<double>());
@@ -285,7 +274,7 @@ TEST_F(View, TheSizeFollowsTheTime) {
     viewer.await("another camera", [](const OrderedJson& r) { return r["camera"]["own"] == true; });
 
     viewer.key("space");
-    ask("100000");
+    viewer.type("frame time", "100000");
     viewer.await("frames as large as their place", [](const OrderedJson& r) { return r["size"][0] == r["area"][2] && r["size"][1] == r["area"][3]; });
 
     // A size that is chosen stays.

@@ -117,6 +117,15 @@ public:
         press(button);
         release(button);
     }
+    /// A number into a slider or field.
+    void type(const std::string& widget, const std::string& number) {
+        display_.xdotool({"keydown", "ctrl"});
+        click(widget);
+        display_.xdotool({"keyup", "ctrl"});
+        seen([&] { display_.xdotool({"type", "--delay", "60", number}); });
+        seen([&] { key("Return"); });
+        clickPicture();  // whatever a busy machine made of Return: beside the field it is over
+    }
     /// Along a widget, from one share of its width to another.
     void dragAcross(const std::string& widget, double from, double to) {
         ++actions_;
@@ -129,6 +138,13 @@ public:
     std::pair<double, double> picture(double right = 0, double down = 0) {
         const OrderedJson area = report()["area"];
         return {area[0].get<double>() + (0.5 + right) * area[2].get<double>(), area[1].get<double>() + (0.5 + down) * area[3].get<double>()};
+    }
+    void clickPicture(double right = 0, double down = 0) {
+        ++actions_;
+        const auto [x, y] = picture(right, down);
+        seen([&] { point(x, y); });
+        press();
+        release();
     }
     void drag(const std::string& button, double right, double down) {
         ++actions_;
