@@ -12,8 +12,10 @@ namespace lodestir {
 void LiveSide::follow(Session& other) {
     // One scene for both, and not two that are alike: whoever moves its camera moves that of both.
     if (runner_ && scene_ == other.sharedScene()) {
-        if (runner_->size() == other.runner().size()) return;
-        runner_->resize(other.runner().size());
+        const glm::uvec2 size = other.runner().size();
+        if (runner_->size() == size) return;
+        runner_->resize(size);
+        graph_->description.size = size;
         port_ = describePort(*graph_, *runner_, port_.source);
         return;
     }

@@ -82,7 +82,7 @@ private:
     ComparisonPanel comparisonPanel_;
     ScenePanel scenePanel_;
     Path out_;
-    float frameTime_;                            ///< milliseconds that the size of frames follows; 0: it stays
+    float frameTime_;                                   ///< milliseconds that the size of frames follows; 0: it stays
     std::pair<float, glm::ivec2> followed_{0, {0, 0}};  ///< what the renderer was told of it, and of the place there is
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;

@@ -40,8 +40,7 @@ void ScenePanel::drawKnob(const Knob& knob) {
     ImGui::SameLine(112);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 24);
     ViewSession::SceneEdit what = knob.what;
-    const bool moved =
-        ImGui::SliderFloat("##value", &value, knob.each * knob.low, knob.each * knob.high, knob.format, ImGuiSliderFlags_AlwaysClamp);
+    const bool moved = ImGui::SliderFloat("##value", &value, knob.each * knob.low, knob.each * knob.high, knob.format, ImGuiSliderFlags_AlwaysClamp);
     host_.mark(name);
     tip(knob.about);
     if (moved) {
