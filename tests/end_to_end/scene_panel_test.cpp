@@ -37,20 +37,6 @@ protected:
                               {"show", "trace.color"}});
         return folder / "frames.json";
     }
-    /// What "Save image" writes: its frame.
-    static int saveImage(Viewer& viewer) {
-        viewer.click("save");
-        const std::string note =
-            viewer.await("an image", [](const OrderedJson& r) { return r["note"].get<std::string>().find(".exr") != std::string::npos; })["note"];
-        const std::size_t end = note.find(".exr"), dot = note.rfind('.', end - 1);
-        return std::stoi(note.substr(dot + 1, end - dot - 1));
-    }
-    void expectFrame(const std::string& port, int frame, const Path& graph, Arguments arguments) {
-        arguments.insert(arguments.end(), {"--frames", std::to_string(frame + 1), "--show", port});
-        run("run", graph, arguments);
-        const std::string name = port + "." + std::to_string(frame) + ".exr";
-        EXPECT_TRUE(readExrFile(folder / "out" / name).image.values == readExrFile(folder / "run" / name).image.values) << "not the picture of a run";
-    }
 };
 
 // A level forced by hand is a switch like one of a scene file: reuse sees it, and goes on over it, in the same way.
@@ -67,10 +53,7 @@ TEST_F(ScenePanelTest, ForcedLevelIsASwitchOfTheScene) {
     EXPECT_GT(before["scene"]["pixels"][0].get<int>(), 100);
 
     // A click on the left bowl picks it.
-    const auto [x, y] = viewer.picture(-0.2, 0);
-    viewer.point(x, y);
-    viewer.press();
-    viewer.release();
+    viewer.clickPicture(-0.2);
     const int frame = viewer.await("the left one", [](const OrderedJson& r) { return r["scene"]["picked"] == 0; })["nextFrame"].get<int>();
     viewer.click("coarser");
     const OrderedJson after = viewer.await("a level", [](const OrderedJson& r) { return r["scene"]["levels"] == OrderedJson({1, 0}); });
@@ -148,8 +131,8 @@ TEST_F(ScenePanelTest, PathIsPlayedByRun) {
     EXPECT_TRUE(readJson(folder / "out/bowls.views.json")["views"].empty());
 }
 
-// A lamp is turned up and back: the picture follows, and what is saved gives it.
-TEST_F(ScenePanelTest, LightsAndMaterialsAreEdited) {
+// A lamp is turned up and back: the picture follows, and what is saved gives it. The slider is in candela, the graph has factors.
+TEST_F(ScenePanelTest, LightsAreEdited) {
     const Path bowls = writeBowls("bowls.json");
     OrderedJson scene = readJson(bowls);
     scene["environment"]["strength"] = 0;
@@ -169,9 +152,60 @@ TEST_F(ScenePanelTest, LightsAndMaterialsAreEdited) {
     EXPECT_EQ(readJson(folder / "out/frames.json")["passes"]["light_edit"]["set"]["light"], "lamp");
     const int frame = saveImage(viewer);
     expectFrame("trace.color", frame, folder / "out/frames.json", {});
+    viewer.type("light_edit lamp.intensity", "5");
+    viewer.await("five candela, where the scene has two", [](const OrderedJson& r) { return r["parameters"]["light_edit.intensity"] == 2.5; });
     viewer.click("light_edit lamp.intensity back");
     viewer.await("as it was", [&](const OrderedJson& r) { return r.contains("mean") && std::abs(r["mean"].get<double>() - mean) < 0.2 * mean; });
     EXPECT_EQ(viewer.report()["builds"], 2);
+}
+
+// If this fails, a material that is edited looks otherwise than one of a file that says the same.
+TEST_F(ScenePanelTest, AMaterialIsThatOfAFile) {
+    const Path graph = writeFrames(writeBowls("bowls.json"));
+    OrderedJson model = readJson(folder / "bowl.gltf");
+    OrderedJson& clay = model["materials"][0];
+    clay["name"] = "clay";
+    write("bowl.gltf", model);
+    Viewer viewer(*display, folder, graph, {});
+    viewer.await("frames", rendered);
+    open(viewer, "Materials");
+    viewer.clickPicture(-0.2);  // picks the left bowl, and opens what it is made of
+    viewer.click("material_edit clay.red", 0);
+    viewer.await("no red", [](const OrderedJson& r) { return r["busy"] == "" && r["parameters"].value("material_edit.red", 1.0) == 0; });
+    const int frame = saveImage(viewer);
+    clay["pbrMetallicRoughness"]["baseColorFactor"][0] = 0;
+    write("bowl.gltf", model);
+    expectFrame("trace.color", frame, graph, {});
+}
+
+// Of an impostor, too: what is picked is edited by itself, and is what a run makes of the graph's own edit of all materials.
+TEST_F(ScenePanelTest, AnImpostorsMaterialIsEdited) {
+    const Path graph = sourceFolder / "graphs/impostor.json";
+    Arguments small{"--scene", (sourceFolder / "scenes/impostor_sphere.json").string(), "--size", "96x54", "--set", "bake.resolution=64"};
+    Arguments shown = small;
+    shown.insert(shown.end(), {"--show", "shade.color"});
+    Viewer viewer(*display, folder, graph, shown);
+    const OrderedJson start = viewer.await("frames", rendered, 120s);
+    viewer.key("space");
+    open(viewer, "Materials");
+    viewer.clickPicture();
+    viewer.await("the ball", [](const OrderedJson& r) { return r["scene"]["picked"] == 0; });
+    viewer.click("material_edit sphere.red", 0);
+    const OrderedJson edited = viewer.await("a ball that reflects no red", [](const OrderedJson& r) {
+        return r["busy"] == "" && r.contains("mean") && r["parameters"].value("material_edit.red", 1.0) == 0;
+    });
+    EXPECT_LT(edited["mean"].get<double>(), 0.9 * start["mean"].get<double>());
+    small.insert(small.end(), {"--set", "edit.red=0"});
+    expectFrame("shade.color", saveImage(viewer), graph, small);
+
+    // Once the pass is there, what is baked stays.
+    const OrderedJson bakes = viewer.report()["runs"]["bake"];
+    viewer.click("material_edit sphere.roughness", 0.1);
+    viewer.await("a smoother ball", [](const OrderedJson& r) {
+        const double roughness = r["parameters"].value("material_edit.roughness", -1.0);
+        return roughness >= 0 && roughness < 0.2 && r["framesStill"].get<int>() > 0;
+    });
+    EXPECT_EQ(viewer.report()["runs"]["bake"], bakes) << "baked again";
 }
 
 }  // namespace

@@ -251,6 +251,40 @@ TEST_F(View, AMaterialIsEditedLive) {
     EXPECT_TRUE(image(folder / "out") == image(folder / "run")) << "not the picture of a run";
 }
 
+// If this fails, frames take another time than was asked for, their size doesn't come to rest, or a frame isn't what a run of its size makes.
+TEST_F(View, TheSizeFollowsTheTime) {
+    const Path graph = writeGraph();
+    Viewer viewer(*display, folder, graph, {"--size", "240x135", "--show", "trace.color"});
+    const OrderedJson start = viewer.await("frames", [](const OrderedJson& r) { return rendered(r) && r["frames"].get<int>() >= 6; });
+    // Times that no machine comes near to, so that it doesn't matter what else this one does; tests/cpu/frame_size_test.cpp has those between.
+    viewer.type("frame time", "0.01");
+    const OrderedJson small =
+        viewer.await("the least frames", [](const OrderedJson& r) { return r["size"][0].get<int>() < 100 && r["framesStill"].get<int>() >= 12; });
+    EXPECT_LT(small["frameMs"].get<double>(), start["frameMs"].get<double>());
+    EXPECT_NEAR(small["size"][0].get<double>() / small["size"][1].get<double>(), small["area"][2].get<double>() / small["area"][3].get<double>(), 0.05);
+    EXPECT_GT(small["zoom"].get<double>() * small["size"][0].get<double>(), 0.98 * small["area"][2].get<double>()) << "the picture doesn't fill its place";
+    EXPECT_EQ(small["builds"], 1);
+
+    viewer.key("space");
+    const OrderedJson paused = viewer.await("a pause", [](const OrderedJson& r) { return r["paused"].get<bool>(); });
+    const std::string size = std::to_string(paused["size"][0].get<int>()) + "x" + std::to_string(paused["size"][1].get<int>());
+    const int frame = saveImage(viewer);
+    expectFrame("trace.color", frame, graph, {"--size", size});
+    viewer.drag("1", 0.1, 0);
+    viewer.await("another camera", [](const OrderedJson& r) { return r["camera"]["own"] == true; });
+
+    viewer.key("space");
+    viewer.type("frame time", "100000");
+    viewer.await("frames as large as their place", [](const OrderedJson& r) { return r["size"][0] == r["area"][2] && r["size"][1] == r["area"][3]; });
+
+    // A size that is chosen stays.
+    viewer.click("size");
+    viewer.click("size: 240x135");
+    const OrderedJson chosen = viewer.await("the chosen size", [](const OrderedJson& r) { return r["size"][0] == 240 && r["framesStill"].get<int>() >= 12; });
+    EXPECT_EQ(chosen["builds"], 1);
+    EXPECT_TRUE(viewer.running());
+}
+
 TEST_F(View, LivesThroughBrokenEdits) {
     // A copy of the shaders, so that one can be broken: an include of tone_map, not its own file.
     std::filesystem::copy(sourceFolder / "framework/shaders", folder / "shaders", std::filesystem::copy_options::recursive);

@@ -117,6 +117,15 @@ public:
         press(button);
         release(button);
     }
+    /// A number into a slider or field.
+    void type(const std::string& widget, const std::string& number) {
+        display_.xdotool({"keydown", "ctrl"});
+        click(widget);
+        display_.xdotool({"keyup", "ctrl"});
+        seen([&] { display_.xdotool({"type", "--delay", "60", number}); });
+        seen([&] { key("Return"); });
+        clickPicture();  // whatever a busy machine made of Return: beside the field it is over
+    }
     /// Along a widget, from one share of its width to another.
     void dragAcross(const std::string& widget, double from, double to) {
         ++actions_;
@@ -129,6 +138,13 @@ public:
     std::pair<double, double> picture(double right = 0, double down = 0) {
         const OrderedJson area = report()["area"];
         return {area[0].get<double>() + (0.5 + right) * area[2].get<double>(), area[1].get<double>() + (0.5 + down) * area[3].get<double>()};
+    }
+    void clickPicture(double right = 0, double down = 0) {
+        ++actions_;
+        const auto [x, y] = picture(right, down);
+        seen([&] { point(x, y); });
+        press();
+        release();
     }
     void drag(const std::string& button, double right, double down) {
         ++actions_;
@@ -198,6 +214,23 @@ protected:
                              {"show", "display"},
                              {"variants", {{"dim", {{"passes", {{"display", {{"set", {{"exposure", -3}}}}}}}}}}}});
         return folder / "graph.json";
+    }
+    /// What "Save image" writes: its frame.
+    static int saveImage(Viewer& viewer) {
+        const OrderedJson before = viewer.report()["note"];
+        viewer.click("save");
+        const std::string note = viewer.await("an image", [&](const OrderedJson& r) {
+            return r["note"] != before && r["note"].get<std::string>().find(".exr") != std::string::npos;
+        })["note"];
+        const std::size_t end = note.find(".exr"), dot = note.rfind('.', end - 1);
+        return std::stoi(note.substr(dot + 1, end - dot - 1));
+    }
+    /// The saved image of a frame is that which a run of a graph makes.
+    void expectFrame(const std::string& port, int frame, const Path& graph, Arguments arguments) {
+        arguments.insert(arguments.end(), {"--frames", std::to_string(frame + 1), "--show", port});
+        run("run", graph, arguments);
+        const std::string name = port + "." + std::to_string(frame) + ".exr";
+        EXPECT_TRUE(readExrFile(folder / "out" / name).image.values == readExrFile(folder / "run" / name).image.values) << "not the picture of a run";
     }
     static bool rendered(const OrderedJson& r) { return r["frames"].get<int>() >= 3 && r.contains("mean"); }
 

@@ -21,6 +21,7 @@ struct ViewOptions {
     ComparedFirst compared;
     std::optional<glm::uvec2> window;  ///< points; none: as it was when it was last closed
     Path out = "out", selfReport;
+    double frameTime = 0;            ///< milliseconds that the size of frames follows; 0: none
     std::optional<Path> screenshot;  ///< where one is wanted at the end, too
 };
 
@@ -53,7 +54,7 @@ int showWindow(const ViewOptions& options) {
     std::string failure;
     {
         RenderThread renderer(sessionOptions, options.compared, device, frames, [] { Window::wake(); });
-        Panels panels(renderer, window, viewport, comparison, options.out, report.wanted());
+        Panels panels(renderer, window, viewport, comparison, options.out, float(options.frameTime), report.wanted());
         using Clock = Window::Clock;
         // On a CPU driver drawing the window takes time from rendering: what nobody waits for is drawn less often.
         const auto pause = std::chrono::milliseconds(device->facts().type == "cpu" ? 80 : 12);
@@ -120,8 +121,10 @@ void addView(CLI::App& app, std::function<int()>& run) {
     Command command(app, "view", "Renders a graph into a window: any port, all parameters, a camera to move, live reload.");
     options->session.addTo(command);
     command.find("--frames").about("quit after this many frames");
-    command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); }, 
+    command.taken<std::string>("--window", [options](const std::string& v) { options->window = readSize("--window", v); },
                                "size of the window in points, WIDTHxHEIGHT (else it is where, and as large as, it was when it was last closed)");
+    command.option("--frame-time", options->frameTime, "milliseconds that a frame is to take: its size follows, up to that of the window")
+        .check(checkPositive);
     command.option("--out", options->out, "folder for what is saved").showDefault();
     command.taken<std::string>("--compare", [options](const std::string& v) { takeCompared(v, options->compared); },
                                "graph that runs beside it as A: GRAPH or GRAPH:VARIANT");

@@ -11,7 +11,14 @@ namespace lodestir {
 
 void LiveSide::follow(Session& other) {
     // One scene for both, and not two that are alike: whoever moves its camera moves that of both.
-    if (runner_ && scene_ == other.sharedScene() && runner_->size() == other.runner().size()) return;
+    if (runner_ && scene_ == other.sharedScene()) {
+        const glm::uvec2 size = other.runner().size();
+        if (runner_->size() == size) return;
+        runner_->resize(size);
+        graph_->description.size = size;
+        port_ = describePort(*graph_, *runner_, port_.source);
+        return;
+    }
     runner_.reset();
     scene_ = other.sharedScene();
     const GraphOptions changes{.scene = scene_->file, .frames = {}, .size = other.runner().size(), .seed = {}, .set = {}, .variant = {}, .show = {}};

@@ -15,7 +15,7 @@
 
 namespace lodestir {
 
-Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, bool wantsStatistics)
+Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, float frameTime, bool wantsStatistics)
     : renderer_(renderer),
       window_(window),
       viewport_(viewport),
@@ -25,6 +25,7 @@ Panels::Panels(RenderThread& renderer, Window& window, Viewport& viewport, Compa
       comparisonPanel_(renderer, [this](const std::string& name) { mark(name); }, out),
       scenePanel_(renderer, sceneHost(), out),
       out_(std::move(out)),
+      frameTime_(frameTime),
       wantsStatistics_(wantsStatistics) {}
 
 Rectangle Panels::pictureArea(glm::uvec2 window) const {
@@ -100,7 +101,9 @@ void Panels::moveCamera(const std::optional<CameraKey>& camera) {
 /// Takes over what a new session has.
 void Panels::follow(const ViewStatus& status) {
     if (status.graph == graph_ || !status.graph) return;
+    if (graph_ && graph_->scene != status.graph->scene) viewport_.setCamera({});  // that was a place in another scene
     graph_ = status.graph;
+    window_.setTitle("Lodestir: " + graph_->file.filename().string());
     values_.clear();
     for (const PassInfo& pass : graph_->passes)
         for (const Parameter& parameter : pass.parameters) values_[pass.name + "." + std::string(parameter.name)] = parameter.value;
@@ -154,6 +157,7 @@ void Panels::draw(const ViewStatus& status) {
 
     drawScene(status);
     const Rectangle area = pictureArea({std::uint32_t(window.x), std::uint32_t(window.y)});
+    if (graph_) followTime(area);
     graphPanel_.draw(status, port_, area);
     if (!graphPanel_.isOpen()) pixelPanel_.draw(status, viewport_, viewport_.camera().value_or(status.camera.key), area);
     comparisonPanel_.draw(status, area);
@@ -170,7 +174,7 @@ void Panels::draw(const ViewStatus& status) {
 }
 
 void Panels::keys(const ViewStatus& status) {
-    for (const Path& file : window_.takeDrops()) send([file](ViewSession& s) { s.compareWithImage(file); });
+    for (const Path& file : window_.takeDrops()) send([file](ViewSession& s) { s.open(file); });
     const std::vector<Window::Key> down = window_.takeKeys();
     if (ImGui::GetIO().WantTextInput) return;
     const auto pressed = [&](int key, bool control = false, bool shift = false) {
@@ -305,30 +309,56 @@ void Panels::drawOutput(const ViewStatus& status) {
     if (button("save graph", "Save graph", "the graph with all that is set now, for `lodestir run`", third))
         send([file = out_ / (graph_->file.stem().string() + ".json")](ViewSession& s) { s.saveGraph(file); });
     ImGui::SameLine();
+    if (button("save into graph", "Into the file",
+               "what is changed by hand, into the graph's own file (the variant's patch where one is chosen), whose other lines stay as they are: Ctrl + S",
+               third))
+        send([](ViewSession& s) { s.saveIntoGraph(); });
+    if (button("save times", "Save times", "of the last frames, pass by pass: times.csv, and trace.json for Perfetto: T", third))
+        send([out = out_](ViewSession& s) { s.saveTimes(out); });
+    ImGui::SameLine();
     ImGui::SetNextItemWidth(third);
+    drawSize();
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(third);
+    ImGui::PushStyleColor(ImGuiCol_Text, frameTime_ > 0 ? palette().accent : ImGui::GetStyleColorVec4(ImGuiCol_Text));
+    ImGui::DragFloat("##frame time", &frameTime_, std::max(0.1f, 0.01f * frameTime_), 0, 1e5f, frameTime_ > 0 ? "%.3g ms" : "any time",
+                     ImGuiSliderFlags_AlwaysClamp);
+    ImGui::PopStyleColor();
+    mark("frame time");
+    tip("that a frame is to take: the size follows it, and the picture is scaled up to the window; 0: the size stays");
+    quietText(status.note);
+    tip(status.note);
+}
+
+/// One that is chosen stays.
+void Panels::drawSize() {
     static constexpr glm::uvec2 sizes[] = {{240, 135}, {320, 180}, {480, 270}, {640, 360}, {960, 540}, {1280, 720}, {1920, 1080}};
     if (ImGui::BeginCombo("##size", fmt::format("{}x{}", graph_->size.x, graph_->size.y).c_str())) {
         for (const glm::uvec2 size : sizes) {
             const std::string text = fmt::format("{}x{}", size.x, size.y);
-            if (ImGui::Selectable(text.c_str(), size == graph_->size)) send([size](ViewSession& s) { s.resize(size); });
+            if (ImGui::Selectable(text.c_str(), size == graph_->size)) {
+                frameTime_ = followed_.first = 0;
+                send([size](ViewSession& s) {
+                    s.followTime(0, size);
+                    s.resize(size);
+                });
+            }
             mark("size: " + text);
         }
         ImGui::EndCombo();
     }
     mark("size");
     tip("size of the frame");
-    if (button("save into graph", "Into the file",
-               "what is changed by hand, into the graph's own file (the variant's patch where one is chosen), whose other lines stay as they are: Ctrl + S",
-               third))
-        send([](ViewSession& s) { s.saveIntoGraph(); });
-    ImGui::SameLine();
-    if (button("save times", "Save times", "of the last frames, pass by pass: times.csv, and trace.json for Perfetto: T", third))
-        send([out = out_](ViewSession& s) { s.saveTimes(out); });
-    ImGui::SameLine();
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().quiet);
-    ImGui::TextUnformatted(status.note.c_str());
-    ImGui::PopStyleColor();
-    tip(status.note);
+}
+
+/// Tells the renderer when another time is wanted, or the window has another size.
+void Panels::followTime(const Rectangle& area) {
+    viewport_.fill(frameTime_ > 0);
+    const float density = ImGui::GetIO().DisplayFramebufferScale.x;
+    const std::pair wanted(frameTime_, frameTime_ > 0 ? glm::ivec2(density * glm::vec2(area.size)) : followed_.second);
+    if (wanted == followed_) return;
+    followed_ = wanted;
+    send([wanted](ViewSession& s) { s.followTime(wanted.first, glm::uvec2(wanted.second)); });
 }
 
 }  // namespace lodestir

@@ -16,8 +16,9 @@ namespace lodestir {
 
 class Panels {
 public:
-    /// `out`: folder for what is saved. `wantsStatistics`: numbers of every picture, for whoever watches the viewer.
-    Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, bool wantsStatistics);
+    /// `out`: folder for what is saved. `frameTime`: milliseconds that the size of frames is to follow, 0: none. `wantsStatistics`: numbers of every
+    /// picture, for whoever watches the viewer.
+    Panels(RenderThread& renderer, Window& window, Viewport& viewport, Comparison& comparison, Path out, float frameTime, bool wantsStatistics);
 
     /// Draws all panels of one UI frame and sends what the user wants to the renderer.
     void draw(const ViewStatus& status);
@@ -54,6 +55,8 @@ private:
     void drawPasses();
     void drawParameter(const PassInfo& pass, std::size_t index);
     void drawOutput(const ViewStatus& status);
+    void drawSize();
+    void followTime(const Rectangle& area);
     void drawTimes(const ViewStatus& status);
     void drawFacts(const ViewStatus& status);
     void drawProblems(const ViewStatus& status);
@@ -79,6 +82,8 @@ private:
     ComparisonPanel comparisonPanel_;
     ScenePanel scenePanel_;
     Path out_;
+    float frameTime_;                                   ///< milliseconds that the size of frames follows; 0: it stays
+    std::pair<float, glm::ivec2> followed_{0, {0, 0}};  ///< what the renderer was told of it, and of the place there is
     bool wantsStatistics_;
     std::shared_ptr<const GraphInfo> graph_;
     std::map<std::string, Value> values_;

@@ -14,7 +14,7 @@ namespace lodestir {
 
 void Panels::drawPasses() {
     heading("PASSES");
-    const float below = 112;
+    const float below = 138;
     ImGui::BeginChild("passes", {0, std::max(ImGui::GetContentRegionAvail().y - below, 60.0f)});
     for (const PassInfo& pass : graph_->passes) {
         if (pass.parameters.empty()) continue;

@@ -94,7 +94,10 @@ void PicturePainter::prepare(gpu::Commands& commands, const Picture& picture, co
     placed.row2 = rows[2];
     const glm::vec3 middle = toImage * glm::vec3(0.5f * glm::vec2(place.size), 1), beside = middle + toImage[0];
     const float step = std::abs(beside.x / beside.z - middle.x / middle.z);  // pixels of the image in one of the window
-    placed.samples = std::uint32_t(std::clamp(std::ceil(step - 0.25f), 1.0f, 4.0f));
+    // Scaled up a little and by no whole number, pixels would be wide and narrow ones in turn.
+    const float times = 1 / std::max(step, 1e-6f);
+    const bool ragged = times > 1.01f && times < 8 && std::abs(times - std::round(times)) > 0.01f;
+    placed.samples = ragged ? 0 : std::uint32_t(std::clamp(std::ceil(step - 0.25f), 1.0f, 4.0f));
     placed.background = word(backgroundColor());
     if (blueFirst) placed.background = (placed.background & 0xff00ff00u) | (placed.background & 0xff) << 16 | (placed.background >> 16 & 0xff);
     place_ = place;

@@ -63,8 +63,13 @@ private:
         std::string about, edit;
         ViewSession::SceneEdit what;  ///< its value: what holds where nobody edits
         float low, high, shown;       ///< shown: what the slider has where nobody edits
+        float each = 1;               ///< of the unit that is shown, for a value of 1
+        const char* format = "%.3g";  ///< of what is shown
     };
     void drawKnob(const Knob& knob);
+    void drawPower(float given, const char* format, const std::string& edit, const ViewSession::SceneEdit& what);
+    /// As it is, or will be when the renderer has put the pass in.
+    const Value& valueNow(const std::string& edit, const ViewSession::SceneEdit& what) const;
     void sendEdit(const std::string& edit, const ViewSession::SceneEdit& what);
     void keepViews();
     Path viewsFile() const;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace lodestir {
 
@@ -18,12 +19,17 @@ void ScenePanel::sendEdit(const std::string& edit, const ViewSession::SceneEdit&
     send([what](ViewSession& s) { s.editScene(what); });
 }
 
+const Value& ScenePanel::valueNow(const std::string& edit, const ViewSession::SceneEdit& what) const {
+    if (!edit.empty()) return host_.value(edit + "." + what.parameter);
+    const auto pending = pending_.find(what.type + what.subject + what.parameter);
+    return pending != pending_.end() ? pending->second : what.value;
+}
+
 void ScenePanel::drawKnob(const Knob& knob) {
     const std::string name = knob.what.type + " " + knob.what.subject + "." + knob.what.parameter;
-    const auto pending = pending_.find(knob.what.type + knob.what.subject + knob.what.parameter);
-    const Value& now = !knob.edit.empty() ? host_.value(knob.edit + "." + knob.what.parameter) : pending != pending_.end() ? pending->second : knob.what.value;
+    const Value& now = valueNow(knob.edit, knob.what);
     const bool changed = now != knob.what.value;
-    float value = changed ? std::get<float>(now) : knob.shown;
+    float value = knob.each * (changed ? std::get<float>(now) : knob.shown);
     ImGui::PushID(name.c_str());
     ImGui::AlignTextToFramePadding();
     if (changed)
@@ -34,14 +40,11 @@ void ScenePanel::drawKnob(const Knob& knob) {
     ImGui::SameLine(112);
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 24);
     ViewSession::SceneEdit what = knob.what;
-    const bool wide = knob.high - knob.low > 400;
-    const bool moved =
-        wide ? ImGui::DragFloat("##value", &value, std::max(0.01f, 0.02f * std::abs(value)), knob.low, knob.high, "%.4g", ImGuiSliderFlags_AlwaysClamp)
-             : ImGui::SliderFloat("##value", &value, knob.low, knob.high, "%.3g", ImGuiSliderFlags_AlwaysClamp);
+    const bool moved = ImGui::SliderFloat("##value", &value, knob.each * knob.low, knob.each * knob.high, knob.format, ImGuiSliderFlags_AlwaysClamp);
     host_.mark(name);
     tip(knob.about);
     if (moved) {
-        what.value = value;
+        what.value = value / knob.each;
         sendEdit(knob.edit, what);
     }
     if (changed) {
@@ -100,6 +103,20 @@ void ScenePanel::drawMaterials(const ViewStatus& status) {
     ImGui::EndChild();
 }
 
+/// In the light's unit, of which the scene gives it so many. What is edited, and goes into the graph, is a factor on that.
+void ScenePanel::drawPower(float given, const char* format, const std::string& edit, const ViewSession::SceneEdit& what) {
+    const bool dark = given <= 0;
+    drawKnob({.label = what.parameter.c_str(),
+              .about = dark ? "dark in the scene, whatever the factor" : "up to 20 times what the scene says; 0: it is off",
+              .edit = edit,
+              .what = what,
+              .low = 0,
+              .high = 20,
+              .shown = 1,
+              .each = dark ? 1 : given,
+              .format = dark ? "x %.3g" : format});
+}
+
 void ScenePanel::drawLights(const ViewStatus&) {
     const SceneInfo& info = graph_->contents;
     ImGui::BeginChild("lights");
@@ -117,17 +134,15 @@ void ScenePanel::drawLights(const ViewStatus&) {
     };
     environment("strength", "environment", "factor on its radiance; 0: it is dark", 1, 0, 4);
     environment("turn", "turn", "degrees around the vertical axis", 0, -180, 180);
-    const auto factor = [&](const char* parameter, const char* about, const std::string& edit, ViewSession::SceneEdit what) {
-        what.parameter = parameter;
-        what.value = 1.0f;
-        drawKnob({.label = parameter, .about = about, .edit = edit, .what = what, .low = 0, .high = 20, .shown = 1});
-    };
     heading(fmt::format("LIGHTS WITHOUT EXTENT  {}", info.lights.size()).c_str());
     for (const SceneInfo::Light& light : info.lights) {
+        const ViewSession::SceneEdit what{.type = "light_edit", .key = "light", .subject = light.name, .parameter = "intensity", .value = 1.0f};
+        const float now = light.intensity * std::get<float>(valueNow(light.edit, what));
         ImGui::TextUnformatted(light.name.c_str());
         ImGui::SameLine();
-        rightText(fmt::format("{}  {:.4g} {}", light.type, light.intensity, light.unit));
-        factor("intensity", "factor on what the scene says; 0: it is off", light.edit, {.type = "light_edit", .key = "light", .subject = light.name});
+        // All around, a candela is 4 pi lumens; how wide a cone is, or the sun's beam, the panel isn't told.
+        rightText(light.type == "point" ? fmt::format("point  {:.4g} lm", 4 * std::numbers::pi_v<float> * now) : light.type);
+        drawPower(light.intensity, ("%.4g " + light.unit).c_str(), light.edit, what);
     }
     heading("SURFACES THAT EMIT");
     for (const SceneInfo::Material& material : info.materials) {
@@ -135,7 +150,8 @@ void ScenePanel::drawLights(const ViewStatus&) {
         ImGui::TextUnformatted(material.name.c_str());
         ImGui::SameLine();
         rightText(fmt::format("{:.3g} {:.3g} {:.3g}", material.emission.x, material.emission.y, material.emission.z));
-        factor("emission", "factor on its radiance; 0: it is off", material.edit, {.type = "material_edit", .key = "material", .subject = material.name});
+        drawPower(glm::dot(material.emission, glm::vec3(0.2126f, 0.7152f, 0.0722f)), "%.4g nits", material.edit,
+                  {.type = "material_edit", .key = "material", .subject = material.name, .parameter = "emission", .value = 1.0f});
     }
     ImGui::EndChild();
 }

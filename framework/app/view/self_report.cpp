@@ -36,6 +36,8 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"refused", status.refused},
                         {"undo", status.undo},
                         {"redo", status.redo},
+                        {"graph", status.graph ? status.graph->file.filename().string() : ""},
+                        {"of", status.graph ? status.graph->scene : ""},
                         {"types", status.graph ? status.graph->edits.types.size() : 0},
                         {"ms", status.deviceMilliseconds},
                         {"frameMs", status.wallMilliseconds},
@@ -46,6 +48,7 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"zoom", viewport.zoom()},
                         {"density", density},
                         {"area", {density * float(area.corner.x), density * float(area.corner.y), density * float(area.size.x), density * float(area.size.y)}},
+                        {"size", {status.picture.extent.x, status.picture.extent.y}},
                         {"comparison",
                          {{"keeps", panels.comparison().has()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},
                         {"widgets", std::move(widgets)}};

@@ -157,10 +157,13 @@ bool ViewSession::wantsFrame() const { return session_ && !broken_ && (!status_.
 void ViewSession::frame() {
     stepping_ = false;
     try {
+        const auto begin = Clock::now();
         askA([&](LiveSide& a) { a.frame(*session_, session_->runner().nextFrame(), captures_); });
         const auto start = Clock::now();
         const FrameReport report = session_->runner().run();
+        const double ofBoth = millisecondsSince(begin);
         took(report, millisecondsSince(start));
+        if (const auto size = frameSize_ ? frameSize_->took(ofBoth) : std::nullopt) resize(*size);
     } catch (const Error& error) {
         broken_ = true;  // the frame is half done: only a new session goes on
         attempt([&] { throw error; });
@@ -450,8 +453,66 @@ bool ViewSession::become(const HandMade& wanted) {
 }
 
 void ViewSession::resize(glm::uvec2 size) {
+    const auto before = options_.changes.size;
     options_.changes.size = size;
-    build();
+    if (!session_ || broken_) {
+        build();
+        return;
+    }
+    asking_.reset();
+    if (!attempt([&] { session_->runner().resize(size); })) {  // memory is out, and what there was is gone
+        options_.changes.size = before;
+        frameSize_.reset();
+        const std::vector<std::string> problems = status_.problems;
+        build();
+        status_.problems.insert(status_.problems.begin(), problems.begin(), problems.end());
+        tell();
+        return;
+    }
+    session_->graph().description.size = size;
+    reports_.clear();
+    status_.wallMilliseconds = 0;
+    describe();
+    changedByHand(true);
+    tell();
+}
+
+void ViewSession::followTime(double milliseconds, glm::uvec2 window) {
+    frameSize_.reset();
+    if (!session_ || milliseconds <= 0 || window.x == 0 || window.y == 0) return;
+    frameSize_.emplace(milliseconds, window, session_->runner().size());
+}
+
+void ViewSession::open(const Path& file) {
+    const std::string ending = file.extension().string(), name = file.filename().string();
+    if (ending != ".json" && ending != ".glb" && ending != ".gltf") return compareWithImage(file);
+    const GraphOptions changes = options_.changes;
+    const Path graph = options_.graph;
+    const std::map<std::string, Value> set = set_, given = given_;
+    const std::string shown = shown_;
+    const bool done = attempt([&] {
+        if (ending == ".json" && Json::load(file).find("passes")) {
+            options_.graph = file;
+            options_.changes = {.scene = changes.scene, .frames = {}, .size = changes.size, .seed = changes.seed, .set = {}, .variant = {}, .show = {}};
+            set_.clear();
+            given_.clear();
+            shown_.clear();
+        } else {
+            options_.changes.scene = file;
+        }
+    }) && build();
+    if (done) {
+        if (options_.graph != graph) history_ = {};
+    } else {
+        options_.graph = graph;
+        options_.changes = changes;
+        set_ = set;
+        given_ = given;
+        shown_ = shown;
+        status_.refused = name;
+        watchFiles();
+    }
+    tell();
 }
 
 const PassType& ViewSession::typeNamed(const std::string& type) const {

@@ -4,6 +4,7 @@
 #include <framework/app/session.h>
 #include <framework/app/view/compared_sides.h>
 #include <framework/app/view/edit_history.h>
+#include <framework/app/view/frame_size.h>
 #include <framework/app/view/level_edit.h>
 #include <framework/app/view/view_state.h>
 #include <framework/core/file_watch.h>
@@ -42,7 +43,12 @@ public:
     void resetCamera();               ///< to the scene's own path
     void setParameter(const std::string& name, const Value& value);  ///< "pass.parameter"
     void setVariant(const std::string& variant);                     ///< empty: none
-    void resize(glm::uvec2 size);
+    void resize(glm::uvec2 size);     ///< history is void
+    /// Whether the size follows the time: a frame is to take so many milliseconds (0: any), and is at most as large as the `window`.
+    void followTime(double milliseconds, glm::uvec2 window);
+
+    /// A graph runs in B's place, in the scene that was asked for; a scene or model is what the graph is rendered of; an image is a reference of A.
+    void open(const Path& file);
 
     /// Edits of the graph. One that can't be built changes nothing; the status tells why.
     void turnPass(const std::string& pass, bool off);
@@ -146,7 +152,8 @@ private:
     std::optional<Picked> picked_;
     std::array<glm::vec3, 2> pickedBox_{};     ///< around all levels of its mesh
     bool statistics_ = false, broken_ = false, stepping_ = false, rereadScene_ = false;
-    std::vector<FrameReport> reports_;         ///< of the session's last frames
+    std::optional<FrameSize> frameSize_;       ///< while the size follows the time
+    std::vector<FrameReport> reports_;         ///< of the session's last frames of this size
     CameraKey lastCamera_;
     Captures captures_;
     ComparedSides sides_;

@@ -20,7 +20,7 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
     if (zoom_ <= 0) {
         scale_ = std::min(size.x / image.x, size.y / image.y);
         // Whole pixels stay square and alike.
-        if (const float density = io.DisplayFramebufferScale.x; density * scale_ > 1) scale_ = std::floor(density * scale_) / density;
+        if (const float density = io.DisplayFramebufferScale.x; density * scale_ > 1 && !fills_) scale_ = std::floor(density * scale_) / density;
         centre_ = 0.5f * image;
     } else {
         scale_ = zoom_;

@@ -17,6 +17,7 @@ public:
     const std::optional<CameraKey>& camera() const { return moved_; }
 
     void fit() { zoom_ = 0; }
+    void fill(bool fills) { fills_ = fills; }  ///< what fits is as large as the place, be pixels of the image whole ones of the window or not
     void zoomTo(float zoom);  ///< points of the window a pixel of the image, about the middle
     float zoom() const { return scale_; }
     /// From points of the rectangle to pixels of the image: a picture of an older camera is warped to where the camera is by now.
@@ -38,7 +39,7 @@ private:
     glm::vec2 centre_{0};         ///< pixel of the image in the middle of the rectangle
     glm::ivec2 pixel_{-1};
     int button_ = -1;             ///< that was pressed inside and is held
-    bool movesPicture_ = false;
+    bool movesPicture_ = false, fills_ = false;
     float dragged_ = 0;           ///< points, while a button is held
     std::optional<glm::vec2> clicked_;  ///< point of the rectangle
     std::optional<CameraKey> moved_;

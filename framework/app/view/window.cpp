@@ -114,6 +114,8 @@ float Window::density() const {
     return std::clamp(x, 0.5f, 8.0f);  // whatever a desktop may say
 }
 
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
 void Window::setClipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
 
 std::optional<Window::Clock::time_point> Window::takeInput(double seconds) {

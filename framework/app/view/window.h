@@ -29,6 +29,7 @@ public:
     bool shouldClose() const;
     glm::ivec2 size() const;  ///< of what is drawn, pixels; {0, 0} while it is minimised
     float density() const;    ///< pixels that the desktop wants a point of type and panels to have: 1 on common screens, 2 where they are small
+    void setTitle(const std::string& title);
     void setClipboard(const std::string& text);
 
     /// Takes what came in, waiting up to `seconds` for something. Where that is input of the user: a time that it didn't come before.

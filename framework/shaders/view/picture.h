@@ -58,7 +58,7 @@ struct PlacePicture {
     vec3 row0;           // from the centre of a viewport pixel (x, y, 1) to image coordinates, homogeneous: rows of the matrix
     vec3 row1;
     vec3 row2;
-    uint samples;        // squared: places averaged in a pixel of the viewport
+    uint samples;        // squared: places averaged in a pixel of the viewport; 0: one, between the pixels of the image
     uint background;     // word of what lies outside
     uint pad;
 };
