@@ -89,5 +89,25 @@ TEST_F(SameBits, ReservedMemoryFollowsParameters) {
     EXPECT_EQ(sharedDevice()->validationMessages(), std::vector<std::string>{});
 }
 
+// What splatting keeps while it runs is small records beside the paths, and paths of those techniques alone that make any. If this fails, look at what
+// `lodestir check` tells of the pass.
+TEST_F(SameBits, SplattingHoldsWhatItsTechniquesMake) {
+    const auto bytesAPixel = [](std::optional<std::string> variant, std::vector<Setting> set) {
+        const auto bytes = [&](glm::uvec2 size) {
+            Session session({.graph = sourceFolder / "graphs/restir_lod.json", .changes = {.size = size, .set = set, .variant = variant}},
+                            {.device = sharedDevice()});
+            session.runner().run();
+            return session.runner().memoryBytes();
+        };
+        return double(bytes({64, 48}) - bytes({32, 32})) / (64 * 48 - 32 * 32);
+    };
+    const double both = bytesAPixel({}, {}), splatted = bytesAPixel({}, {{"temporal.backup", Json(0)}}), reprojected = bytesAPixel("frame jitter", {});
+    std::printf("bytes a pixel of all ports: %.1f, %.1f without a backup, %.1f without splats\n", both, splatted, reprojected);
+    EXPECT_LE(both, 656);
+    EXPECT_EQ(both - splatted, 128 + 16) << "a path and its landing";
+    EXPECT_EQ(both - reprojected, 128 + 16 + 4) << "the same, and an entry in a list";
+    EXPECT_EQ(sharedDevice()->validationMessages(), std::vector<std::string>{});
+}
+
 }  // namespace
 }  // namespace lodestir::test

@@ -8,7 +8,7 @@ void main() {
     if (skip()) return;
     for (uint i = 0; i < splatsOfPath(); ++i) {
         uint splat = splatOf(pixelIndex(pixel()), i);
-        Landing landing = landings(splat);
-        if (landing.target != 0xffffffffu) storeLists(starts(landing.target) + landing.order, splat);
+        uint target = landings(splat).target;
+        if (target != NONE) storeLists(addEnds(target, 1), splat);
     }
 }

@@ -7,12 +7,10 @@
 LODESTIR_SHARED_BEGIN
 
 struct Landing {
-    uint target;        // pixel it lands in, 0xffffffff: none
-    uint order;         // among those that land there
-    float jacobian;     // of the whole shift
-    float pHat;         // target of the path in last frame
-    float confidence;   // of the pixel it comes from, capped
-    uvec3 pad;
+    uint target;       // pixel it lands in, 0xffffffff: none
+    float jacobian;    // of the whole shift
+    float pHat;        // target of the path in last frame
+    float confidence;  // of the pixel it comes from, capped
 };
 
 // pHatFrom of this frame's path by each technique that could have made it from last frame, times the confidence of the pixel that would have.
@@ -20,7 +18,6 @@ struct Origins {
     float scattered;
     float gathered;
     float kept;  // 1: what the pixel's centre sees was there last frame, on the level shown then; 0: it has no history to be splatted
-    uint pad;
 };
 
 LODESTIR_SHARED_END

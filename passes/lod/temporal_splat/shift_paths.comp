@@ -49,7 +49,7 @@ LevelMapping levelMapping() {
 }
 
 void reuseStart(inout Reuse r, World w, ivec2 pixel) {
-    r.origins = Origins(0, 0, 0, 0);
+    r.origins = Origins(0, 0, 0);
     if (reusePartners() == 0) return;
     r.own = pathsReservoirs(place(pixel));
     r.ownHit = pathsSamples(place(pixel));
@@ -61,7 +61,7 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
     bool splats = isSplat(partner);
     PROBE_CHOICE(technique, splats ? 0 : 1, "splatting|reprojection");
     // This frame's path is a copy of one path of last frame, whatever the part that it lies in.
-    if (splats && (rules().pixelCamera != 0 || (way == BACK && partner > 0))) return shiftOfNothing();
+    if (splats && way == BACK && partner > 0) return shiftOfNothing();
     World from, now = to;  // of the frames: at no time of a path, so that there and back it is the same
     if (way == BACK) from = now = world();
     else from = worldPrev();
@@ -125,11 +125,11 @@ ShiftTask reuseTask(inout Reuse r, World to, ivec2 pixel, uint partner, uint way
 // Last frame's path has arrived, or not.
 void arrive(inout Reuse r, ivec2 pixel, uint partner, Shift result) {
     bool good = result.jacobian > 0;
-    Landing landing = Landing(NONE, 0, result.jacobian, r.pHat, r.confidence, uvec3(0));
+    Landing landing = Landing(NONE, result.jacobian, r.pHat, r.confidence);
     result.path.W = r.W;
     if (good) landing.target = place(r.landing);
     if (good && isSplat(partner)) {
-        landing.order = addCounts(landing.target, 1);
+        addCounts(landing.target, 1);
         storeShiftedReservoirs(splatOf(place(pixel), partner), result.path);
         storeShiftedSamples(splatOf(place(pixel), partner), result.hit);
     } else if (good) {
@@ -153,10 +153,11 @@ void reuseResult(inout Reuse r, ivec2 pixel, uint partner, uint way, Shift resul
 }
 
 void reuseEnd(Reuse r, ivec2 pixel) {
-    Landing nowhere = Landing(NONE, 0, 0, 0, 0, uvec3(0));
-    if (reusePartners() == 0)
+    Landing nowhere = Landing(NONE, 0, 0, 0);
+    if (reusePartners() == 0) {
         for (uint i = 0; i < splatsOfPath(); ++i) storeLandings(splatOf(place(pixel), i), nowhere);
-    if (reusePartners() <= splatsOfPath()) storeGatherings(place(pixel), nowhere);
+        if (backupShare() > 0) storeGatherings(place(pixel), nowhere);
+    }
     storeOrigins(place(pixel), r.origins);
 }
 

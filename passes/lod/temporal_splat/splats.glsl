@@ -2,6 +2,7 @@
 // How often each path of last frame is splatted, and where its splats are kept. After pass.glsl.
 #include "lod/partitions.glsl"
 
+/// 0: paths are reprojected alone.
 uint splatsOfPath() { return argument(0); }
 
 /// The splats of pixel `i` lie side by side.

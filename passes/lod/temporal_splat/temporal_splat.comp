@@ -37,7 +37,7 @@ void main() {
     if (skip()) return;
     ivec2 p = pixel();
     PROBE_START(p);
-    uint i = pixelIndex(p), start = starts(i), count = counts(i);
+    uint i = pixelIndex(p), count = counts(i), start = ends(i) - count;
     Reservoir own = pathsReservoirs(i), kept = own;
     SampleHit keptHit = pathsSamples(i);
     ivec2 before = pixelBefore(p, motion(p));
@@ -77,8 +77,8 @@ void main() {
         kept = path;
         keptHit = shiftedSamples(source);
     }
-    Landing landing = gatherings(i);
-    if (backup > 0 && landing.target == i) {
+    if (backup > 0 && gatherings(i).target == i) {
+        Landing landing = gatherings(i);
         Reservoir path = gatheredReservoirs(i);
         PROBE_OPEN(candidates);
         PROBE_TEXT(path, "reprojected");

@@ -33,12 +33,12 @@ struct TemporalSplat final : Pass {
                                      "radiance from the weights of all candidates instead of the kept one's (Lin et al. 2026, section 6.3), linear Rec. 709",
                                    Format::rgba32f, Need::optional};
     Scratch<Paths>           shifted{this, "shifted", "each path of last frame where it lands, as often as it is splatted", Count::reserved()};
-    Scratch<Paths>           gathered{this, "gathered", "the path that reprojection brings", Count::perPixel()};
+    Scratch<Paths>           gathered{this, "gathered", "the path that reprojection brings", Count::reserved()};
     Scratch<Buffer<Landing>> landings{this, "landings", "of each splat", Count::reserved()};
-    Scratch<Buffer<Landing>> gatherings{this, "gatherings", "of each path that reprojection brings", Count::perPixel()};
+    Scratch<Buffer<Landing>> gatherings{this, "gatherings", "of each path that reprojection brings", Count::reserved()};
     Scratch<Buffer<Origins>> origins{this, "origins", "of each path of this frame", Count::perPixel()};
     Scratch<Buffer<uint>>    counts{this, "counts", "splats that land in each pixel", Count::perPixel()};
-    Scratch<Buffer<uint>>    starts{this, "starts", "where each pixel's list begins", Count::perPixel()};
+    Scratch<Buffer<uint>>    ends{this, "ends", "where each pixel's list ends, which grows as it is filled", Count::perPixel()};
     Scratch<Buffer<uint>>    lists{this, "lists", "splats that land in one pixel, one list behind another", Count::reserved()};
     Scratch<Buffer<uint>>    cursor{this, "cursor", "end of the lists", Count::fixed(1)};
     History                  reused{this};
@@ -63,10 +63,13 @@ struct TemporalSplat final : Pass {
     InPlace                  over{this, paths, pathsOut};
 
     void execute(Frame& frame) override {
-        const std::uint32_t each = splatsOfPath(frame), splats = each * frame.size().x * frame.size().y;
+        const std::uint32_t pixels = frame.size().x * frame.size().y, each = splatsOfPath(frame), splats = each * pixels;
+        const bool reprojects = each == 0 || backup > 0;
         frame.reserve(shifted, splats);
         frame.reserve(landings, splats);
         frame.reserve(lists, splats);
+        frame.reserve(gathered, reprojects ? pixels : 0);
+        frame.reserve(gatherings, reprojects ? pixels : 0);
         frame.fill(counts, 0);
         frame.fill(cursor, 0);
         frame.dispatch("shift_paths.comp", frame.size(), {each});
@@ -76,11 +79,12 @@ struct TemporalSplat final : Pass {
     }
 
 private:
-    /// Once, unless the exposure has parts that differ and the time is the path's.
+    /// Once, unless the exposure has parts that differ; not at all where the camera sample isn't the path's.
     std::uint32_t splatsOfPath(const Frame& frame) const {
+        if (frame.valueOf(rules).pixelCamera != 0) return 0;
         const World now = frame.valueOf(world);
         const bool moves = now.closing != 0 || std::memcmp(&now.camera, &now.closingCamera, sizeof now.camera) != 0;
-        return moves && frame.valueOf(rules).pixelCamera == 0 ? std::uint32_t(partitions) : 1;
+        return moves ? std::uint32_t(partitions) : 1;
     }
 };
 LODESTIR_PASS(TemporalSplat, "temporal_splat.comp",
