@@ -51,6 +51,25 @@ TEST(OrbitCamera, FullTurnComesBack) {
     expectNear(camera.position, start, 1e-3f);
 }
 
+TEST(OrbitCamera, LooksAroundFromWhereItStands) {
+    // Five before the origin, looking along -z: a quarter turn to the right looks along +x.
+    const CameraKey right = turned(fromFront(), pi / 2, 0);
+    expectNear(right.position, fromFront().position);
+    expectNear(right.target, fromFront().position + glm::vec3(5, 0, 0));
+    const CameraKey up = turned(fromFront(), 0, pi / 4);
+    expectNear(up.target, fromFront().position + 5 / std::sqrt(2.0f) * glm::vec3(0, 1, -1));
+    const CameraKey steep = turned(fromFront(), 0, 10);
+    EXPECT_LT(steep.target.z, 5) << "over the pole";
+    EXPECT_GT(steep.target.y, 4.99f);
+}
+
+TEST(OrbitCamera, FliesBesideWhatItLooksAt) {
+    const CameraKey turnedRight = turned(fromFront(), pi / 2, 0), moved = flown(turnedRight, {0.2f, 0.4f, 1});
+    expectNear(moved.position, turnedRight.position + glm::vec3(5, 2, 1));  // its right is +z
+    expectNear(moved.target - moved.position, turnedRight.target - turnedRight.position);
+    EXPECT_EQ(moved.focus, turnedRight.focus);
+}
+
 TEST(OrbitCamera, WhatWasUnderThePointerFollowsIt) {
     // A tenth of the picture's height to the right moves the target there, at any aspect.
     const CameraKey camera = orbited(fromFront(), 0.7f, 0.2f), moved = panned(camera, -0.1f, 0.05f);

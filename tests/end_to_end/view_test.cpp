@@ -51,6 +51,31 @@ TEST_F(View, AnswersMouseAndKeys) {
     EXPECT_NE(orbited["camera"]["key"]["position"], start["camera"]["key"]["position"]);
     viewer.drag("3", 0.1, 0);
     viewer.await("a moved target", [&](const OrderedJson& r) { return r["camera"]["key"]["target"] != start["camera"]["key"]["target"]; });
+    // Shift and a drag look around from where it stands; held arrows fly, and the target flies along.
+    const auto atRest = [&] {
+        viewer.seen([] {});  // all that the drag was
+        return viewer.await("rest", [](const OrderedJson& r) { return r["framesStill"].get<int>() > 2; })["camera"]["key"];
+    };
+    const OrderedJson stood = atRest();
+    display->xdotool({"keydown", "shift"});
+    viewer.drag("1", 0.1, 0);
+    display->xdotool({"keyup", "shift"});
+    const OrderedJson turned = atRest();
+    EXPECT_NE(turned["target"], stood["target"]);
+    EXPECT_EQ(turned["position"], stood["position"]);
+    display->xdotool({"keydown", "Up"});
+    viewer.await("a flight", [&](const OrderedJson& r) { return r["camera"]["key"]["position"] != stood["position"]; });
+    display->xdotool({"keyup", "Up"});
+    const OrderedJson flown = atRest();
+    const auto along = [&](const char* place) {
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            sum += (flown[place][i].get<double>() - turned[place][i].get<double>()) *
+                   (turned["target"][i].get<double>() - turned["position"][i].get<double>());
+        return sum;
+    };
+    EXPECT_GT(along("position"), 0);
+    EXPECT_NEAR(along("target"), along("position"), 1e-3 * along("position"));
     const double focus = viewer.report()["camera"]["key"]["focus"].get<double>();
     display->xdotool({"click", "4"});
     viewer.await("a closer camera", [&](const OrderedJson& r) { return r["camera"]["key"]["focus"].get<double>() < focus - 0.1; });

@@ -67,6 +67,25 @@ CameraKey orbited(const CameraKey& camera, float right, float up) {
     return moved;
 }
 
+CameraKey turned(const CameraKey& camera, float right, float up) {
+    // The target goes around the camera as the camera goes around the target; what is to the right of one is to the left of the other.
+    CameraKey moved = camera;
+    std::swap(moved.position, moved.target);
+    moved = orbited(moved, -right, up);
+    std::swap(moved.position, moved.target);
+    return moved;
+}
+
+CameraKey flown(const CameraKey& camera, const glm::vec3& way) {
+    const ViewAxes axes = viewAxes(camera);
+    const glm::vec3 shift =
+        glm::length(camera.target - camera.position) * (way.x * axes.right + way.y * glm::normalize(camera.up) + way.z * axes.forward);
+    CameraKey moved = camera;
+    moved.position += shift;
+    moved.target += shift;
+    return moved;
+}
+
 CameraKey panned(const CameraKey& camera, float right, float up) {
     const ViewAxes axes = viewAxes(camera);
     const glm::vec3 shift = heightAtTarget(camera) * (right * axes.right + up * axes.up);

@@ -10,6 +10,10 @@ namespace lodestir {
 
 /// Around the target, radians to the right and upwards; stops just short of looking along `up`.
 LODESTIR_API CameraKey orbited(const CameraKey& camera, float right, float up);
+/// Around where it stands, radians to the right and upwards; stops just short of looking along `up`.
+LODESTIR_API CameraKey turned(const CameraKey& camera, float right, float up);
+/// With its target, to the right, along `up` and forward, in distances to the target, which stay as they are.
+LODESTIR_API CameraKey flown(const CameraKey& camera, const glm::vec3& way);
 /// Sideways and upwards with its target, in heights of the picture at the target's distance: what is there follows the pointer.
 LODESTIR_API CameraKey panned(const CameraKey& camera, float right, float up);
 /// Towards the target or away from it: the distance times `factor`. The plane in focus moves along. Orthographic: the height times `factor`.

@@ -4,6 +4,7 @@
 
 #include <framework/app/view/panel_style.h>
 #include <framework/app/view/theme.h>
+#include <framework/graph/ray_purposes.h>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,11 @@ void drawHistory(const PassTime& pass) {
     quietText(fmt::format("{}: ms of the last {} frames, from 0 to {}", pass.name, sorted.size(), share(1)));
     ImGui::PlotLines("##history", pass.history.data(), int(pass.history.size()), 0, nullptr, 0, sorted.back(), {360, 72});
     ImGui::TextUnformatted(fmt::format("median {}   95 % {}   most {}", share(0.5), share(0.95), share(1)).c_str());
+    std::string rays;
+    for (std::size_t purpose = 0; purpose < RAYS_STEPS; ++purpose)
+        if (pass.rays[purpose] > 0)
+            rays += fmt::format("{}{} {}", rays.empty() ? "rays: " : "   ", rayPurposes[purpose], countText(double(pass.rays[purpose])));
+    if (!rays.empty()) quietText(rays);
     ImGui::EndTooltip();
 }
 
@@ -161,6 +167,8 @@ void Panels::drawProbe(const ViewStatus& status, const std::optional<PicturePain
 void Panels::drawHelp() {
     if (!help_) return;
     static constexpr const char* lines[][2] = {{"left drag", "orbit around the target"},
+                                               {"Shift + left drag", "look around"},
+                                               {"arrows, Page Up, Down", "fly; with Shift: faster"},
                                                {"right or middle drag", "move sideways"},
                                                {"wheel", "closer, farther"},
                                                {"Ctrl + wheel, Ctrl + drag", "zoom and move the picture"},

@@ -11,6 +11,20 @@
 
 namespace lodestir {
 
+namespace {
+
+/// In distances to the target, since the last drawing: what the keys that are held mean.
+glm::vec3 flight(const ImGuiIO& io) {
+    if (io.WantTextInput || io.KeyCtrl) return glm::vec3(0);
+    const auto held = [](ImGuiKey key) { return ImGui::IsKeyDown(ImGui::GetKeyIndex(key)) ? 1.0f : 0.0f; };
+    const glm::vec3 way(held(ImGuiKey_RightArrow) - held(ImGuiKey_LeftArrow), held(ImGuiKey_PageUp) - held(ImGuiKey_PageDown),
+                        held(ImGuiKey_UpArrow) - held(ImGuiKey_DownArrow));
+    constexpr float aSecond = 0.5f, longest = 0.1f;  // the first key comes long after the last drawing
+    return (io.KeyShift ? 4 : 1) * aSecond * std::min(io.DeltaTime, longest) * way;
+}
+
+}  // namespace
+
 std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 extent, const CameraState& camera) {
     place_ = place;
     if (extent.x > 0) extent_ = extent;
@@ -37,6 +51,7 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
         if (free && ImGui::IsMouseClicked(button)) {
             button_ = button;
             movesPicture_ = io.KeyCtrl;
+            looksAround_ = io.KeyShift;
             dragged_ = 0;
         }
     const glm::vec2 drag = button_ >= 0 ? glm::vec2(io.MouseDelta.x, io.MouseDelta.y) : glm::vec2(0);
@@ -50,12 +65,16 @@ std::optional<CameraKey> Viewport::interact(const Rectangle& place, glm::uvec2 e
         if (movesPicture_) {
             zoom_ = scale_;
             centre_ -= drag / scale_;
+        } else if (button_ == 0 && looksAround_) {
+            const float angle = now.height > 0 ? 1.0f : now.fovy;  // what is far stays under the pointer
+            result = turned(now, -angle * part.x, angle * part.y);
         } else if (button_ == 0) {
             result = orbited(now, -3.14159265f * part.x, 3.14159265f * part.y);
         } else {
             result = panned(now, -part.x, part.y);
         }
     }
+    if (const glm::vec3 way = flight(io); way != glm::vec3(0)) result = flown(result.value_or(now), way);
     if (free && io.MouseWheel != 0) {
         if (io.KeyCtrl) {
             const glm::vec2 held = imagePlace(pointer);

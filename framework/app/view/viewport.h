@@ -39,7 +39,7 @@ private:
     glm::vec2 centre_{0};         ///< pixel of the image in the middle of the rectangle
     glm::ivec2 pixel_{-1};
     int button_ = -1;             ///< that was pressed inside and is held
-    bool movesPicture_ = false, fills_ = false;
+    bool movesPicture_ = false, looksAround_ = false, fills_ = false;
     float dragged_ = 0;           ///< points, while a button is held
     std::optional<glm::vec2> clicked_;  ///< point of the rectangle
     std::optional<CameraKey> moved_;
