@@ -33,16 +33,12 @@ void takeCompared(const std::string& text, ComparedFirst& compared) {
     if (!isFile(compared.graph)) refuseOption("--compare", "there is no file " + compared.graph.string());
 }
 
-Rectangle inPixels(const Rectangle& points, float density) {
-    return {glm::ivec2(density * glm::vec2(points.corner)), glm::ivec2(density * glm::vec2(points.size))};
-}
-
 /// Draws the window until it is closed; the renderer has a thread of its own.
 int showWindow(const ViewOptions& options) {
     SessionOptions sessionOptions = options.session;
     const auto frames = std::uint64_t(sessionOptions.changes.frames.value_or(0));
     sessionOptions.changes.frames.reset();  // here it says when to quit
-    Window window(glm::ivec2(options.window.value_or(glm::uvec2(1440, 900))), "Lodestir: " + sessionOptions.graph.filename().string(),
+    Window window(glm::ivec2(options.window.value_or(glm::uvec2(1440, 900))), sessionOptions.graph.filename().string(),
                   options.window ? std::nullopt : readWindowPlace());
     const auto device =
         std::make_shared<const gpu::Device>(gpu::DeviceOptions{.choice = sessionOptions.renderer.device, .windowExtensions = window.vulkanExtensions()});
@@ -77,7 +73,7 @@ int showWindow(const ViewOptions& options) {
             if (!canvas.begin()) continue;
             seen = status;
             const bool last = frames > 0 && status->framesDone >= frames;
-            const Rectangle area = panels.pictureArea(canvas.points()), pixels = inPixels(area, canvas.density());
+            const Rectangle area = panels.pictureArea(canvas.points()), pixels = area.inPixels(canvas.density());
             if (const auto moved = viewport.interact(area, status->picture.extent, status->camera))
                 renderer.post([key = *moved](ViewSession& s) { s.setCamera(key); });
             panels.draw(*status);
@@ -102,7 +98,7 @@ int showWindow(const ViewOptions& options) {
                 canvas.wait();
                 report.answered(*input);
             }
-            report.write(*status, panels, viewport, area, canvas.density());
+            report.write(*status, panels, viewport, pixels, canvas.density());
             if (last) break;
         }
         canvas.wait();  // the last drawing uses what ends before the canvas does

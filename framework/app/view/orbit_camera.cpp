@@ -51,6 +51,13 @@ Json vectorJson(const glm::vec3& v) {
     return array;
 }
 
+/// Stands elsewhere and looks the same way.
+CameraKey shifted(CameraKey camera, const glm::vec3& by) {
+    camera.position += by;
+    camera.target += by;
+    return camera;
+}
+
 }  // namespace
 
 CameraKey orbited(const CameraKey& camera, float right, float up) {
@@ -80,19 +87,13 @@ CameraKey flown(const CameraKey& camera, const glm::vec3& way) {
     const ViewAxes axes = viewAxes(camera);
     const glm::vec3 shift =
         glm::length(camera.target - camera.position) * (way.x * axes.right + way.y * glm::normalize(camera.up) + way.z * axes.forward);
-    CameraKey moved = camera;
-    moved.position += shift;
-    moved.target += shift;
-    return moved;
+    return shifted(camera, shift);
 }
 
 CameraKey panned(const CameraKey& camera, float right, float up) {
     const ViewAxes axes = viewAxes(camera);
     const glm::vec3 shift = heightAtTarget(camera) * (right * axes.right + up * axes.up);
-    CameraKey moved = camera;
-    moved.position += shift;
-    moved.target += shift;
-    return moved;
+    return shifted(camera, shift);
 }
 
 CameraKey dollied(const CameraKey& camera, float factor) {

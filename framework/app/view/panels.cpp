@@ -103,7 +103,7 @@ void Panels::follow(const ViewStatus& status) {
     if (status.graph == graph_ || !status.graph) return;
     if (graph_ && graph_->scene != status.graph->scene) viewport_.setCamera({});  // that was a place in another scene
     graph_ = status.graph;
-    window_.setTitle("Lodestir: " + graph_->file.filename().string());
+    window_.setTitle(graph_->file.filename().string());
     values_.clear();
     for (const PassInfo& pass : graph_->passes)
         for (const Parameter& parameter : pass.parameters) values_[pass.name + "." + std::string(parameter.name)] = parameter.value;
@@ -355,7 +355,7 @@ void Panels::drawSize() {
 void Panels::followTime(const Rectangle& area) {
     viewport_.fill(frameTime_ > 0);
     const float density = ImGui::GetIO().DisplayFramebufferScale.x;
-    const std::pair wanted(frameTime_, frameTime_ > 0 ? glm::ivec2(density * glm::vec2(area.size)) : followed_.second);
+    const std::pair wanted(frameTime_, frameTime_ > 0 ? area.inPixels(density).size : followed_.second);
     if (wanted == followed_) return;
     followed_ = wanted;
     send([wanted](ViewSession& s) { s.followTime(wanted.first, glm::uvec2(wanted.second)); });

@@ -21,6 +21,8 @@ struct Look {
 struct Rectangle {
     glm::ivec2 corner{0}, size{0};
     bool operator==(const Rectangle&) const = default;
+    /// In pixels, of one in points that are so many pixels each.
+    Rectangle inPixels(float density) const { return {glm::ivec2(density * glm::vec2(corner)), glm::ivec2(density * glm::vec2(size))}; }
 };
 
 class PicturePainter {

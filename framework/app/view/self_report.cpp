@@ -47,7 +47,7 @@ void SelfReport::write(const ViewStatus& status, const Panels& panels, const Vie
                         {"pixel", {viewport.pixelUnderPointer().x, viewport.pixelUnderPointer().y}},
                         {"zoom", viewport.zoom()},
                         {"density", density},
-                        {"area", {density * float(area.corner.x), density * float(area.corner.y), density * float(area.size.x), density * float(area.size.y)}},
+                        {"area", {area.corner.x, area.corner.y, area.size.x, area.size.y}},
                         {"size", {status.picture.extent.x, status.picture.extent.y}},
                         {"comparison",
                          {{"keeps", panels.comparison().has()}, {"side", int(panels.comparison().side())}, {"split", panels.comparison().split()}}},

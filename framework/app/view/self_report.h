@@ -14,7 +14,8 @@ public:
     bool wanted() const { return !file_.empty(); }
     /// Input that came at the earliest at `since` was answered on the screen just now.
     void answered(std::chrono::steady_clock::time_point since);
-    /// Writes the file, where it is wanted: after each drawing. `area`: of the picture, points; the file has it, and widgets, in pixels.
+    /// Writes the file, where it is wanted: after each drawing. `area`: of the picture, pixels; widgets are told
+    /// in pixels, too.
     void write(const ViewStatus& status, const Panels& panels, const Viewport& viewport, const Rectangle& area, float density);
 
 private:

@@ -17,6 +17,8 @@ std::string lastProblem() {
     return text ? text : "no reason given";
 }
 
+std::string titleOf(const std::string& subject) { return "Lodestir: " + subject; }
+
 /// Whether the middle of its upper edge, by which it is moved, can be reached.
 bool isOnAScreen(const WindowPlace& place) {
     const glm::ivec2 handle = place.corner + glm::ivec2(place.size.x / 2, 8);
@@ -32,7 +34,7 @@ bool isOnAScreen(const WindowPlace& place) {
 
 }  // namespace
 
-Window::Window(glm::ivec2 size, const std::string& title, const std::optional<WindowPlace>& place) {
+Window::Window(glm::ivec2 size, const std::string& subject, const std::optional<WindowPlace>& place) {
     if (!glfwInit())
         throw Error("there is no display to open a window on (" + lastProblem() + ")",
                     "`lodestir run` renders without one; `xvfb-run lodestir view ...` gives it one in memory");
@@ -40,7 +42,7 @@ Window::Window(glm::ivec2 size, const std::string& title, const std::optional<Wi
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);  // until it is in its place
     glfwWindowHint(GLFW_MAXIMIZED, place && place->maximised);
-    window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+    window_ = glfwCreateWindow(size.x, size.y, titleOf(subject).c_str(), nullptr, nullptr);
     if (!window_) {
         const std::string problem = lastProblem();
         glfwTerminate();
@@ -114,7 +116,7 @@ float Window::density() const {
     return std::clamp(x, 0.5f, 8.0f);  // whatever a desktop may say
 }
 
-void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+void Window::setTitle(const std::string& subject) { glfwSetWindowTitle(window_, titleOf(subject).c_str()); }
 
 void Window::setClipboard(const std::string& text) { glfwSetClipboardString(window_, text.c_str()); }
 

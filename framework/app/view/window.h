@@ -18,8 +18,9 @@ class Window {
 public:
     using Clock = std::chrono::steady_clock;
 
-    /// `size`: points; `place`: where it was, which goes before, as long as a screen is there still. Error where there is no display.
-    Window(glm::ivec2 size, const std::string& title, const std::optional<WindowPlace>& place);
+    /// `size`: points; `subject`: as in setTitle(); `place`: where it was, which goes before, as long as a screen is there still.
+    /// Error where there is no display.
+    Window(glm::ivec2 size, const std::string& subject, const std::optional<WindowPlace>& place);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -29,7 +30,7 @@ public:
     bool shouldClose() const;
     glm::ivec2 size() const;  ///< of what is drawn, pixels; {0, 0} while it is minimised
     float density() const;    ///< pixels that the desktop wants a point of type and panels to have: 1 on common screens, 2 where they are small
-    void setTitle(const std::string& title);
+    void setTitle(const std::string& subject);  ///< behind the program's name
     void setClipboard(const std::string& text);
 
     /// Takes what came in, waiting up to `seconds` for something. Where that is input of the user: a time that it didn't come before.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <framework/app/view/window_place.h>
 
-#include <framework/core/error.h>
 #include <framework/core/files.h>
 #include <framework/core/log.h>
 
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
+#include <exception>
 #include <string>
 
 namespace lodestir {
@@ -32,10 +32,8 @@ std::optional<WindowPlace> readWindowPlace() {
         WindowPlace place{pair("corner"), pair("size"), json.at("maximised").get<bool>()};
         const bool usable = glm::all(glm::greaterThanEqual(place.size, glm::ivec2(160))) && glm::all(glm::lessThanEqual(place.size, glm::ivec2(16384)));
         return usable ? std::optional(place) : std::nullopt;
-    } catch (const nlohmann::json::exception&) {
-        return {};  // damaged: the window opens as if for the first time, and is remembered again
-    } catch (const Error&) {
-        return {};
+    } catch (const std::exception&) {
+        return {};  // unreadable or damaged: the window opens as if for the first time, and is remembered again
     }
 }
 
